@@ -1,0 +1,7 @@
+#include "session.hpp"
+
+namespace mstsl::app {
+
+void add_info(CLI::App&, Session&) {}
+
+}  // namespace mstsl::app

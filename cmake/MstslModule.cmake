@@ -1,0 +1,24 @@
+# mstsl_module(<name> SOURCES a.cpp ... [PUBLIC target...] [PRIVATE target...])
+#
+# One static library per module, mstsl::<name>, with the headers of include/mstsl/<name>/. PUBLIC names what its
+# headers show, PRIVATE what only its .cpp files use. Modules may depend on lower layers only.
+function(mstsl_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(mstsl_${name} ${arg_SOURCES})
+  add_library(mstsl::${name} ALIAS mstsl_${name})
+  set_target_properties(mstsl_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(mstsl_${name} PUBLIC cxx_std_20)
+  target_include_directories(mstsl_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(mstsl_${name} PUBLIC ${arg_PUBLIC}
+    PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:mstsl_own_flags>)
+  set_property(GLOBAL APPEND PROPERTY MSTSL_MODULES mstsl_${name})
+endfunction()
+
+# mstsl_test(<name> SOURCES a.cpp ... [LINK target...]): one GoogleTest program, its cases known to ctest.
+function(mstsl_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(test_${name} ${arg_SOURCES})
+  target_link_libraries(test_${name} PRIVATE ${arg_LINK} mstsl_test_support GTest::gtest_main mstsl_own_flags)
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. PROPERTIES TIMEOUT 300 DISCOVERY_TIMEOUT 60)
+endfunction()
