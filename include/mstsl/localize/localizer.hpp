@@ -9,11 +9,12 @@
 
 namespace mstsl {
 
-/// Anything that is fed a robot's readings in time order and can be asked where the robot is. The two-step method,
-/// the joint one and every baseline are interchangeable here.
+/// Anything that is fed a robot's readings in time order and can be asked where the robot is. The two-step
+/// method, the joint one and every baseline are interchangeable here.
 template <typename L>
 concept Localizer = requires(L localizer, const L& asked, const OdometryReading& odometry,
-                             const OdometryRestart& restart, const LaserScan& scan, const FieldReading& field) {
+                             const OdometryRestart& restart, const LaserScan& scan,
+                             const FieldReading& field) {
   localizer.observe(odometry);
   localizer.observe(restart);
   localizer.observe(scan);
@@ -57,7 +58,8 @@ class AnyLocalizer {
 
 static_assert(Localizer<AnyLocalizer>);
 
-/// Hands one event to a localizer; readings that no localizer may see (IMU rates, true poses) are passed over.
+/// Hands one event to a localizer; readings that no localizer may see (IMU rates, true poses) are passed
+/// over.
 template <Localizer L>
 void feed(L& localizer, const SensorEvent& event) {
   std::visit(
