@@ -32,10 +32,11 @@ struct CollectionReport {
   std::uint64_t bad_poses = 0;     ///< poses that were not finite or came out of order (poses, not readings)
 };
 
-/// Turns a survey's poses and field readings, each in time order, into fingerprints. The mounting is applied in full:
-/// a fingerprint lies where the magnetometer was, not the base, and its field is turned by the sensor's own 3-D
-/// rotation and the robot's yaw. Each fingerprint is the mean of the readings within one `spacing_m` of travel (the
-/// straight distance from its first reading), so standing still is one fingerprint however long it lasts.
+/// Turns a survey's poses and field readings, each in time order, into fingerprints. The mounting is applied
+/// in full: a fingerprint lies where the magnetometer was, not the base, and its field is turned by the
+/// sensor's own 3-D rotation and the robot's yaw. Each fingerprint is the mean of the readings within one
+/// `spacing_m` of travel (the straight distance from its first reading), so standing still is one fingerprint
+/// however long it lasts.
 class FingerprintCollector {
  public:
   explicit FingerprintCollector(const Rig& rig, const CollectorOptions& options = {});

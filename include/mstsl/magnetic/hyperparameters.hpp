@@ -1,13 +1,15 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <string>
 
+#include <Eigen/Core>
+
 namespace mstsl {
 
-/// What a Gaussian-process regression of the field assumes, per component (map x, y, z): a constant mean, a squared
-/// exponential covariance of standard deviation `signal_sd_uT` over `length_scale_m`, and independent noise.
+/// What a Gaussian-process regression of the field assumes, per component (map x, y, z): a constant mean, a
+/// squared exponential covariance of standard deviation `signal_sd_uT` over `length_scale_m`, and independent
+/// noise.
 struct FieldHyperparameters {
   Eigen::Array3d mean_uT = Eigen::Array3d::Zero();
   Eigen::Array3d signal_sd_uT = Eigen::Array3d::Constant(7.0);

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
@@ -12,8 +13,8 @@
 
 namespace mstsl {
 
-/// A measured field, already turned into the map frame, and how far the measurement may be off: sensor noise plus what
-/// is left of the bias. The map's own variance is added cell by cell.
+/// A measured field, already turned into the map frame, and how far the measurement may be off: sensor noise
+/// plus what is left of the bias. The map's own variance is added cell by cell.
 struct FieldObservation {
   Eigen::Vector3d field_uT = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_uT2 = Eigen::Matrix3d::Identity();
@@ -35,12 +36,14 @@ struct LocationCandidate {
 /// What ranks the candidates.
 enum class CandidateRank {
   kPeak,  ///< the density at the best cell: the paper's "selected according to their probabilities"
-  kMass   ///< the probability within `separation_m`: the best chance that the truth is near one of the candidates
+  kMass   ///< the probability within `separation_m`: the best chance that the truth is near one of the
+          ///< candidates
 };
 
 struct DistinctOptions {
-  std::size_t count = 5;       ///< K (paper section IV-C: 5 in the office, 8 in the car park)
-  double separation_m = 1.5;   ///< candidates are at least this far apart: about the field's correlation length
+  std::size_t count = 5;  ///< K (paper section IV-C: 5 in the office, 8 in the car park)
+  double separation_m =
+      1.5;  ///< candidates are at least this far apart: about the field's correlation length
   CandidateRank rank = CandidateRank::kPeak;
 };
 
@@ -50,8 +53,9 @@ struct MatcherOptions {
   Threads threads;
 };
 
-/// Finds where a measured field may have been taken (paper section III-A.3, stage 1): the multivariate Gaussian of
-/// Eq. 2 over all cells of a GPR map, or the k nearest cells or fingerprints in field space (Euclidean) for the others.
+/// Finds where a measured field may have been taken (paper section III-A.3, stage 1): the multivariate
+/// Gaussian of Eq. 2 over all cells of a GPR map, or the k nearest cells or fingerprints in field space
+/// (Euclidean) for the others.
 class FieldMatcher {
  public:
   /// Errors: a map without a usable cell.
@@ -64,19 +68,20 @@ class FieldMatcher {
   std::size_t size() const;
   Eigen::Vector2d position_m(std::size_t place) const;
 
-  /// Natural log of the observation density at each place (size() values): a Gaussian around the place's mean with
-  /// the place's variance plus the observation's covariance.
+  /// Natural log of the observation density at each place (size() values): a Gaussian around the place's mean
+  /// with the place's variance plus the observation's covariance.
   std::vector<float> log_densities(const FieldObservation& observation) const;
 
-  /// The `count` places whose field is nearest to the observation, nearest first (k-NN, Euclidean distance in uT).
+  /// The `count` places whose field is nearest to the observation, nearest first (k-NN, Euclidean distance in
+  /// uT).
   struct Neighbour {
     std::size_t place = 0;
     double distance_uT = 0.0;
   };
   std::vector<Neighbour> nearest(const Eigen::Vector3d& field_uT, std::size_t count) const;
 
-  /// The best distinct places over all given observations (each equally probable beforehand), best first, by the way
-  /// that belongs to the map's model. Fewer than `count` where the map has no more distinct places.
+  /// The best distinct places over all given observations (each equally probable beforehand), best first, by
+  /// the way that belongs to the map's model. Fewer than `count` where the map has no more distinct places.
   std::vector<LocationCandidate> locate(std::span<const FieldObservation> observations,
                                         const DistinctOptions& options = {}) const;
 
