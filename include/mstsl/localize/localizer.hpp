@@ -15,7 +15,8 @@ namespace mstsl {
 /// was processed; a localizer may pass over scans that tell it nothing new.
 template <typename L>
 concept Localizer = requires(L localizer, const L& asked, const OdometryReading& odometry,
-                             const OdometryRestart& restart, const LaserScan& scan, const FieldReading& field) {
+                             const OdometryRestart& restart, const LaserScan& scan,
+                             const FieldReading& field) {
   localizer.observe(odometry);
   localizer.observe(restart);
   localizer.observe(scan);
@@ -63,7 +64,8 @@ class AnyLocalizer {
 
 static_assert(Localizer<AnyLocalizer>);
 
-/// Hands one event to a localizer; readings that no localizer may see (IMU rates, true poses) are passed over.
+/// Hands one event to a localizer; readings that no localizer may see (IMU rates, true poses) are passed
+/// over.
 template <Localizer L>
 void feed(L& localizer, const SensorEvent& event) {
   std::visit(
