@@ -1,25 +1,27 @@
 #include "mstsl/localize/building_axis.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 
 namespace mstsl {
 namespace {
 
-/// A room of 30 m x 8 m with walls two cells thick, turned by `yaw_rad` on the grid, on a grid that is itself turned.
+/// A room of 30 m x 8 m with walls two cells thick, turned by `yaw_rad` in the map, on a grid that is itself
+/// turned.
 OccupancyGrid room(double yaw_rad, double grid_yaw_rad) {
   const GridGeometry geometry{0.05, 800, 800, {-20.0, -20.0, grid_yaw_rad}};
   OccupancyGrid map(geometry, CellState::kUnknown);
   const Eigen::Vector2d middle = geometry.to_map({400, 400});
   for (std::size_t i = 0; i < geometry.size(); ++i) {
-    const Eigen::Vector2d p =
-        Eigen::Rotation2Dd(-yaw_rad) * (geometry.center_of(geometry.cell(i)) - middle);
+    const Eigen::Vector2d p = Eigen::Rotation2Dd(-yaw_rad) * (geometry.center_of(geometry.cell(i)) - middle);
     const double outside = std::max(std::abs(p.x()) - 15.0, std::abs(p.y()) - 4.0);
-    if (outside < 0.0) map.values()[i] = CellState::kFree;
-    else if (outside < 0.1) map.values()[i] = CellState::kOccupied;
+    if (outside < 0.0)
+      map.values()[i] = CellState::kFree;
+    else if (outside < 0.1)
+      map.values()[i] = CellState::kOccupied;
   }
   return map;
 }
@@ -32,9 +34,9 @@ TEST(BuildingAxis, IsTheWallsDirectionInTheMapFrame) {
   }
 }
 
-TEST(BuildingAxis, CountsInTheYawOfTheGrid) {
+TEST(BuildingAxis, DoesNotDependOnTheYawOfTheGrid) {
   EXPECT_NEAR(degrees(*building_axis(room(radians(10.0), radians(25.0)))), 35.0, 0.1);
-  EXPECT_NEAR(degrees(*building_axis(room(0.0, radians(120.0)))), 30.0, 0.1);
+  EXPECT_NEAR(degrees(*building_axis(room(0.0, radians(120.0)))), 0.0, 0.1);
 }
 
 TEST(BuildingAxis, SaysNothingOfAMapWithoutWalls) {
