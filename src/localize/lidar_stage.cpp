@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -60,10 +61,23 @@ LidarStage::LidarStage(std::shared_ptr<const LocalizationMaps> maps,
 }
 
 void LidarStage::observe(const std::vector<BeamReturn>& returns_base, const Pose2& last_T_base) {
+  unseen_motion_ = unseen_motion_ * last_T_base;
+  if (returns_base.empty()) return;  // the next scan that sees something makes up for it
   const bool first = local_map_.empty();
   const Pose2 local_T_last = local_map_.local_T_base();
-  local_map_.insert(returns_base, last_T_base);
-  const Pose2 moved = first ? last_T_base : between(local_T_last, local_map_.local_T_base());
+  local_map_.insert(returns_base, unseen_motion_);
+  move_hypotheses(first ? unseen_motion_ : between(local_T_last, local_map_.local_T_base()), first);
+  unseen_motion_ = Pose2{};
+  const bool due = since_match_m_ >= options_.match_every_m || since_match_rad_ >= options_.match_every_rad;
+  if (!first && !due) return;
+  since_match_m_ = since_match_rad_ = 0.0;
+  PointSet points;
+  points.reserve(returns_base.size());
+  for (const BeamReturn& beam : returns_base) points.push_back(beam.point_m);
+  match_all(points);
+}
+
+void LidarStage::move_hypotheses(const Pose2& moved, bool local_map_begins) {
   driven_m_ += std::hypot(moved.x, moved.y);
   since_match_m_ += std::hypot(moved.x, moved.y);
   since_match_rad_ += std::abs(moved.yaw);
@@ -72,17 +86,10 @@ void LidarStage::observe(const std::vector<BeamReturn>& returns_base, const Pose
     hypothesis.covariance =
         moved_covariance(hypothesis.map_T_base, hypothesis.covariance, moved, options_.odometry);
     hypothesis.map_T_base = hypothesis.map_T_base * moved;
-    if (!first) continue;
-    hypothesis.map_T_start = hypothesis.map_T_base;  // the local map begins here
+    if (!local_map_begins) continue;
+    hypothesis.map_T_start = hypothesis.map_T_base;
     hypothesis.start_covariance = hypothesis.covariance;
   }
-  const bool due = since_match_m_ >= options_.match_every_m || since_match_rad_ >= options_.match_every_rad;
-  if (!first && !due) return;
-  since_match_m_ = since_match_rad_ = 0.0;
-  PointSet points;
-  points.reserve(returns_base.size());
-  for (const BeamReturn& beam : returns_base) points.push_back(beam.point_m);
-  match_all(points);
 }
 
 void LidarStage::match_all(const PointSet& scan_points_base_m) {

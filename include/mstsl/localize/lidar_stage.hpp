@@ -97,6 +97,7 @@ class LidarStage {
   std::optional<Answer> answer() const;
 
  private:
+  void move_hypotheses(const Pose2& moved, bool local_map_begins);
   void match_all(const PointSet& scan_points_base_m);
   void match(LidarHypothesis& hypothesis, const PointSet& local_points_base_m,
              const PointSet& scan_points_base_m);
@@ -107,6 +108,7 @@ class LidarStage {
   std::vector<LidarHypothesis> hypotheses_;
   LocalMap local_map_;
   std::vector<Pose2> local_path_;  ///< local_T_base at each match
+  Pose2 unseen_motion_;            ///< since the last scan that saw something
   double driven_m_ = 0.0;
   double since_match_m_ = 0.0;
   double since_match_rad_ = 0.0;

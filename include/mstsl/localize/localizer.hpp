@@ -10,9 +10,9 @@
 
 namespace mstsl {
 
-/// Anything that is fed a robot's readings in time order and can be asked where the robot is. The two-step method,
-/// the joint one and every baseline are interchangeable here. An estimate carries the stamp of the last scan that
-/// was processed; a localizer may pass over scans that tell it nothing new.
+/// Anything that is fed a robot's readings in time order and can be asked where the robot is. The two-step
+/// method, the joint one and every baseline are interchangeable here. An estimate carries the stamp of the
+/// last scan that was processed; a localizer may pass over scans that tell it nothing new.
 template <typename L>
 concept Localizer = requires(L localizer, const L& asked, const OdometryReading& odometry,
                              const OdometryRestart& restart, const LaserScan& scan,
