@@ -32,7 +32,7 @@ struct CollectionReport {
   std::uint64_t bad_poses = 0;     ///< poses that were not finite or came out of order (poses, not readings)
 };
 
-/// Turns a survey's poses and field readings, each in time order, into fingerprints. The mounting is applied
+/// Turns a survey's poses and field readings, fed in time order, into fingerprints. The mounting is applied
 /// in full: a fingerprint lies where the magnetometer was, not the base, and its field is turned by the
 /// sensor's own 3-D rotation and the robot's yaw. Each fingerprint is the mean of the readings within one
 /// `spacing_m` of travel (the straight distance from its first reading), so standing still is one fingerprint
@@ -52,14 +52,21 @@ class FingerprintCollector {
 
  private:
   struct Sample {
-    Eigen::Vector2d position_m;
-    Eigen::Vector3d field_uT;
-    double heading_rad;
+    Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+    Eigen::Vector3d field_uT = Eigen::Vector3d::Zero();
+    double heading_rad = 0.0;
   };
-  void use_waiting(const PoseReading& next);
+  /// The fingerprint being made: where it began, and the sums of its readings.
+  struct Open {
+    Sample first;
+    Sample sum;  ///< its heading is the turn from the first reading's
+    double count = 0.0;
+    double carried_m = 0.0;  ///< how far behind the first reading its 5 cm began
+  };
+  void join(const PoseReading& from, const PoseReading& to);
   void add(const Sample& sample);
   void close_fingerprint();
-  void drop_waiting(std::uint64_t& counter);
+  void interrupt(std::uint64_t& counter);
 
   Rig rig_;
   CollectorOptions options_;
@@ -67,8 +74,8 @@ class FingerprintCollector {
   int session_ = 0;
   std::optional<PoseReading> last_pose_;
   std::optional<Stamp> last_reading_;
-  std::vector<FieldReading> waiting_;  ///< newer than the last pose
-  std::vector<Sample> open_;           ///< readings of the fingerprint being made
+  std::vector<FieldReading> waiting_;  ///< newer than the last pose, at most `max_pose_gap_s` of them
+  std::optional<Open> open_;
   std::vector<Fingerprint> fingerprints_;
 };
 
