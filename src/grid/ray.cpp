@@ -5,14 +5,8 @@
 namespace mstsl {
 namespace {
 
-/// The part of a segment, as shares of its way, that lies over the grid; empty when begin > end.
-struct Part {
-  double begin = 0.0;
-  double end = 1.0;
-};
-
 /// Cuts `part` to where from + share * way lies in [0, extent]. Liang & Barsky's line clipping, one axis.
-void clip(double from, double way, double extent, Part& part) {
+void clip(double from, double way, double extent, SegmentPart& part) {
   if (way == 0.0) {
     if (from < 0.0 || from > extent) part.end = -1.0;
     return;
@@ -22,24 +16,16 @@ void clip(double from, double way, double extent, Part& part) {
   part.end = std::min(part.end, std::max(a, b));
 }
 
-/// walk_cells() along the part of the segment over the grid: however far the ends lie, the work is bounded by
-/// the grid. `visit(cell, share)` sees cells of the grid only. Returns the part.
-template <typename Visit>
-Part walk_over(const GridGeometry& geometry, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-               Visit visit) {
-  const Eigen::Vector2d way = to - from;
-  Part part;
-  clip(from.x(), way.x(), geometry.columns, part);
-  clip(from.y(), way.y(), geometry.rows, part);
-  if (part.begin > part.end) return part;
-  const double length = part.end - part.begin;
-  walk_cells(from + part.begin * way, from + part.end * way, [&](Cell cell, double share) {
-    return !geometry.contains(cell) || visit(cell, part.begin + share * length);
-  });
+}  // namespace
+
+SegmentPart part_over(const GridGeometry& geometry, const Eigen::Vector2d& from_cells,
+                      const Eigen::Vector2d& to_cells) {
+  const Eigen::Vector2d way = to_cells - from_cells;
+  SegmentPart part;
+  clip(from_cells.x(), way.x(), geometry.columns, part);
+  clip(from_cells.y(), way.y(), geometry.rows, part);
   return part;
 }
-
-}  // namespace
 
 std::optional<double> cast_ray(const OccupancyGrid& grid, const Eigen::Vector2d& origin_m,
                                double direction_rad, double max_range_m) {
@@ -49,7 +35,7 @@ std::optional<double> cast_ray(const OccupancyGrid& grid, const Eigen::Vector2d&
   const Eigen::Vector2d way =
       max_range_m / geometry.resolution_m * Eigen::Vector2d(std::cos(direction), std::sin(direction));
   std::optional<double> range_m;
-  walk_over(geometry, from, from + way, [&](Cell cell, double share) {
+  walk_grid(geometry, from, from + way, [&](Cell cell, double share) {
     if (grid[cell] != CellState::kOccupied) return true;
     range_m = share * max_range_m;
     return false;
@@ -61,11 +47,12 @@ Crossing crosses(const OccupancyGrid& grid, const Eigen::Vector2d& from_m, const
   const Eigen::Vector2d from = grid.geometry().to_grid(from_m), to = grid.geometry().to_grid(to_m);
   if (!from.allFinite() || !to.allFinite() || !(to - from).allFinite()) return {.outside = true};
   Crossing met;
-  const Part part = walk_over(grid.geometry(), from, to, [&](Cell cell, double) {
+  walk_grid(grid.geometry(), from, to, [&](Cell cell, double) {
     met.wall |= grid[cell] == CellState::kOccupied;
     met.unknown |= grid[cell] == CellState::kUnknown;
     return true;
   });
+  const SegmentPart part = part_over(grid.geometry(), from, to);
   met.outside = part.begin > 0.0 || part.end < 1.0;
   return met;
 }

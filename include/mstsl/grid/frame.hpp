@@ -28,13 +28,16 @@ class GridFrame {
     return map_R_grid_m_ * grid_point_cells + origin_m_;
   }
 
-  /// A displacement or gradient, which has a direction and a length but no place: map (m) to grid (cells) and
-  /// back.
+  /// A displacement, which has a direction and a length but no place: map (m) to grid (cells) and back.
   Eigen::Vector2d vector_to_grid(const Eigen::Vector2d& map_vector_m) const {
     return grid_R_map_cells_ * map_vector_m;
   }
   Eigen::Vector2d vector_to_map(const Eigen::Vector2d& grid_vector_cells) const {
     return map_R_grid_m_ * grid_vector_cells;
+  }
+  /// The slope of a value along the grid's axes (per cell) as the slope along the map's (per m).
+  Eigen::Vector2d slope_to_map(const Eigen::Vector2d& slope_per_cell) const {
+    return grid_R_map_cells_.transpose() * slope_per_cell;
   }
 
   /// The cell of a map point; it need not lie inside the grid.

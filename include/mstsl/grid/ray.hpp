@@ -42,6 +42,27 @@ void walk_cells(const Eigen::Vector2d& from_cells, const Eigen::Vector2d& to_cel
   }
 }
 
+/// The part of a segment, as shares of its way, that lies over a grid; there is none when begin > end.
+struct SegmentPart {
+  double begin = 0.0;
+  double end = 1.0;
+};
+SegmentPart part_over(const GridGeometry& geometry, const Eigen::Vector2d& from_cells,
+                      const Eigen::Vector2d& to_cells);
+
+/// walk_cells() along the part of a segment over a grid, so that the work is bounded by the grid however far
+/// the ends lie. `visit(cell, share)` sees cells of the grid only. Expects finite points a finite way apart.
+template <typename Visit>
+void walk_grid(const GridGeometry& geometry, const Eigen::Vector2d& from_cells,
+               const Eigen::Vector2d& to_cells, Visit visit) {
+  const SegmentPart part = part_over(geometry, from_cells, to_cells);
+  if (part.begin > part.end) return;
+  const Eigen::Vector2d way = to_cells - from_cells;
+  walk_cells(from_cells + part.begin * way, from_cells + part.end * way, [&](Cell cell, double share) {
+    return !geometry.contains(cell) || visit(cell, part.begin + share * (part.end - part.begin));
+  });
+}
+
 /// How far (m) a ray runs from `origin_m` (map) in the direction `direction_rad` (map; 0 = map x) until it
 /// enters an occupied cell: 0 if it starts in one, nothing if it meets none within `max_range_m`. Cells are
 /// solid squares; unknown cells and the outside of the grid are transparent. Expects finite arguments.

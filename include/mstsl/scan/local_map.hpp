@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -7,10 +8,24 @@
 #include "mstsl/core/pose2.hpp"
 #include "mstsl/grid/occupancy_grid.hpp"
 #include "mstsl/scan/likelihood_field.hpp"
+#include "mstsl/scan/log_odds_grid.hpp"
 #include "mstsl/scan/points.hpp"
 #include "mstsl/scan/refine.hpp"
 
 namespace mstsl {
+
+/// Odometry's error over a motion, as standard deviations that add up in squares. The defaults cover the
+/// recovered odometry of real robots (ACES, Intel, Freiburg: 4-7 cm and 2-3 deg over a step of half a metre).
+struct OdometryNoise {
+  double m_per_m = 0.10;
+  double rad_per_m = 0.08;
+  double rad_per_rad = 0.08;
+  double floor_m = 0.002;    ///< at every step, also when standing
+  double floor_rad = 0.002;  ///< likewise
+
+  /// Of the motion's x, y (m) and yaw (rad), in the frame it starts from.
+  Eigen::Matrix3d covariance(const Pose2& motion) const;
+};
 
 struct LocalMapOptions {
   double resolution_m = 0.05;  ///< the paper's cell size
@@ -21,17 +36,12 @@ struct LocalMapOptions {
   /// aligned.
   double keyframe_distance_m = 0.2;
   double keyframe_angle_rad = 0.17;
-  /// Scan points this near each other count once in the alignment (m), and no more than so many of them.
+  /// Points nearer each other than this count once (m), and a scan is aligned by no more than so many of
+  /// them.
   double spacing_m = 0.10;
   std::size_t max_points = 250;
-  /// Odometry's error between scans, as standard deviations: per metre driven, per radian turned and per
-  /// metre, and a floor. From the recovered odometry of real robots (ACES, Intel, Freiburg): 10 % and 3 deg a
-  /// step of 0.5 m.
-  double odometry_sigma_m_per_m = 0.10;
-  double odometry_sigma_rad_per_rad = 0.10;
-  double odometry_sigma_rad_per_m = 0.10;
-  double odometry_sigma_floor_m = 0.005;
-  double odometry_sigma_floor_rad = 0.005;
+  OdometryNoise odometry;
+  BeamModel beams;
   LikelihoodOptions likelihood;
   RefineOptions refine;
 };
@@ -45,27 +55,37 @@ class LocalMap {
  public:
   explicit LocalMap(const LocalMapOptions& options = {});
 
-  /// Takes a scan, whose returns are in the base frame, and the base's motion since the last one by odometry.
-  void insert(const std::vector<BeamReturn>& returns_base, const Pose2& last_T_base_odometry);
+  /// Takes a scan's returns in the base frame, and the base's motion since the last scan by odometry. A scan
+  /// without returns only moves the base. Expects a finite motion.
+  void insert(const std::vector<BeamReturn>& returns_base, const Pose2& last_T_base);
 
-  bool empty() const { return scans_ == 0; }
-  /// Where the base is, in the local frame.
+  bool empty() const { return !has_scan_; }
+  /// Where the base is, in the local frame, and with what covariance (x, y, yaw).
   const Pose2& local_T_base() const { return local_T_base_; }
+  const Eigen::Matrix3d& covariance() const { return covariance_; }
 
-  /// The wall points found so far, thinned: in the local frame, and as seen from the base.
+  /// Points on the walls drawn so far, thinned; whatever beams have since passed through (people) is left
+  /// out.
   PointSet points_in_local() const;
+  /// The same as seen from the base: what match_submap() looks for in the global map.
   PointSet points_in_base() const;
 
   /// The drawn map in the local frame: free where beams passed, occupied where they ended.
   OccupancyGrid occupancy() const;
 
  private:
+  void align(const PointSet& points_base, const Pose2& last_T_base);
+  void draw(const std::vector<BeamReturn>& returns_base, const PointSet& points_base);
+  bool has_moved_since_drawn() const;
+
   LocalMapOptions options_;
-  Grid<float> log_odds_;
+  LogOddsGrid drawn_;
   LikelihoodField field_;
+  PointSet points_local_;
   Pose2 local_T_base_;
-  Pose2 local_T_keyframe_;
-  std::size_t scans_ = 0;
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  Pose2 local_T_drawn_;
+  bool has_scan_ = false;
 };
 
 }  // namespace mstsl

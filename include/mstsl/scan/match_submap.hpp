@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include <Eigen/Core>
@@ -25,6 +26,8 @@ struct MatchMap {
 
 struct SubmapMatchOptions {
   double window_sigmas = 3.0;  ///< the paper's search within 3 sigma of the hypothesis
+  /// No more of the local map's points than this are matched, spread over all of it.
+  std::size_t max_points = 400;
   PoseSearchOptions search;
   RefineOptions refine;
   ScoreOptions score;

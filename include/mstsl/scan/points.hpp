@@ -32,7 +32,9 @@ double sweep_duration_s(const LaserScan& scan);
 std::vector<BeamReturn> beam_returns(const LaserScan& scan, const Eigen::Isometry3d& base_T_laser,
                                      const Pose2& first_T_last = {});
 
-/// The end points of beam_returns().
+PointSet end_points(const std::vector<BeamReturn>& returns);
+
+/// end_points(beam_returns(...)).
 PointSet points_in_base(const LaserScan& scan, const Eigen::Isometry3d& base_T_laser,
                         const Pose2& first_T_last = {});
 
