@@ -35,9 +35,11 @@ TEST(RunLoop, HandsOnOneEstimateForEachScanThatWasProcessed) {
   std::vector<Estimate> estimates;
   RunLoop loop(AnyLocalizer(EverySecondScan{}), [&](const Estimate& e) { estimates.push_back(e); });
   for (int i = 1; i <= 6; ++i) {
-    loop.observe(OdometryReading{Stamp::from_seconds(i - 0.5), {}});
+    const OdometryReading odometry{Stamp::from_seconds(i - 0.5), {}};
+    const FieldReading field{Stamp::from_seconds(i + 0.1), Eigen::Vector3d::Zero()};
+    loop.observe(odometry);
     loop.observe(scan_at(i));
-    loop.observe(FieldReading{Stamp::from_seconds(i + 0.1), {}});
+    loop.observe(field);
     loop.observe(PoseReading{Stamp::from_seconds(i + 0.2), {}});
   }
   ASSERT_EQ(estimates.size(), 3u);
