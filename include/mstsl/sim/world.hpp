@@ -55,7 +55,8 @@ struct WorldPlan {
   std::vector<Spot> spots;
   std::vector<Lane> lanes;
   EarthField earth;
-  std::optional<OccupancyGrid> ground;  ///< where given, robots stay on its free cells
+  double magnetisation = 1.0;           ///< factor on all remanence
+  std::optional<OccupancyGrid> ground;  ///< the map it was made from, if any: robots stay on its free cells
 };
 
 /// A building as a robot meets it on one day: exact walls, a magnetic field, and the ground it may drive on.
