@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+
+#include <Eigen/Core>
 
 #include "mstsl/core/pose2.hpp"
 
