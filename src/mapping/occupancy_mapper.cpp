@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "mstsl/scan/points.hpp"
 
@@ -16,6 +17,12 @@ struct CellBox {
   Eigen::Array2d high;
 
   double cells() const { return (high - low + 1.0).prod(); }
+  /// Whether a grid of this box can be made, and its cells be numbered.
+  bool is_sane(std::size_t max_cells) const {
+    constexpr double kFarthest = 1e9;
+    return cells() <= static_cast<double>(max_cells) && (low.abs() < kFarthest).all() &&
+           (high.abs() < kFarthest).all();
+  }
   bool holds(const CellBox& other) const { return (low <= other.low).all() && (high >= other.high).all(); }
 };
 
@@ -27,11 +34,15 @@ CellBox box_of(const GridGeometry& geometry) {
 GridGeometry geometry_of(const CellBox& box, double resolution_m) {
   const Eigen::Array2i size = (box.high - box.low + 1.0).cast<int>();
   const Eigen::Vector2d corner_m = box.low.matrix() * resolution_m;
-  return {.resolution_m = resolution_m, .columns = size.x(), .rows = size.y(), .map_T_grid = {corner_m.x(), corner_m.y(), 0}};
+  return {.resolution_m = resolution_m,
+          .columns = size.x(),
+          .rows = size.y(),
+          .map_T_grid = {corner_m.x(), corner_m.y(), 0}};
 }
 
 /// The cells that a scan's beams touch, none farther than `max_range_m` along its beam.
-CellBox reach_of(const std::vector<BeamReturn>& returns, const Pose2& map_T_base, double max_range_m, double resolution_m) {
+CellBox reach_of(const std::vector<BeamReturn>& returns, const Pose2& map_T_base, double max_range_m,
+                 double resolution_m) {
   const Eigen::Array2d base_m = map_T_base.position().array();
   CellBox reach_m{base_m, base_m};
   for (const BeamReturn& r : returns) {
@@ -74,19 +85,21 @@ CellBox touched(const LogOddsGrid& drawn) {
 OccupancyMapper::OccupancyMapper(const MappingOptions& options)
     : options_(options), drawn_(GridGeometry{.resolution_m = options.resolution_m}, options.beams) {}
 
-Result<void> OccupancyMapper::insert(const LaserScan& scan, const Eigen::Isometry3d& base_T_laser, const Pose2& map_T_base,
-                                     const Pose2& first_T_last) {
-  if (!map_T_base.is_finite()) return Error("the pose of a scan is not finite; mapping needs a known pose for each scan");
+Result<void> OccupancyMapper::insert(const LaserScan& scan, const Eigen::Isometry3d& base_T_laser,
+                                     const Pose2& map_T_base, const Pose2& first_T_last) {
+  if (!map_T_base.is_finite())
+    return Error("the pose of a scan is not finite; mapping needs a known pose for each scan");
   const std::vector<BeamReturn> returns = beam_returns(scan, base_T_laser, first_T_last);
   if (returns.empty()) return {};
   const CellBox needed = reach_of(returns, map_T_base, options_.beams.max_range_m, options_.resolution_m);
   const bool is_first = drawn_.geometry().size() == 0;
-  if (const CellBox old = box_of(drawn_.geometry()); is_first || !old.holds(needed)) {
-    const CellBox box = is_first ? needed : grown(old, needed);
-    if (!(box.cells() <= static_cast<double>(options_.max_cells))) {
-      return Error("the map would grow to " + std::to_string(box.cells()) + " cells at the pose (" +
-                   std::to_string(map_T_base.x) + ", " + std::to_string(map_T_base.y) +
-                   ") m; check the poses, or raise max_cells or the cell size");
+  if (is_first || !box_of(drawn_.geometry()).holds(needed)) {
+    const CellBox box = is_first ? needed : grown(box_of(drawn_.geometry()), needed);
+    if (!box.is_sane(options_.max_cells)) {
+      return Error(fmt::format(
+          "a scan at ({:g}, {:g}) m would make the map {:.3g} cells large, more than {}; check the poses, "
+          "or choose a larger cell or limit",
+          map_T_base.x, map_T_base.y, box.cells(), options_.max_cells));
     }
     drawn_ = drawn_.moved_to(geometry_of(box, options_.resolution_m));
   }
