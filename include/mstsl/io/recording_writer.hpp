@@ -10,16 +10,19 @@
 namespace mstsl::io {
 
 /// Writes sensor events as a ROS 2 MCAP log: LaserScan, MagneticField (in tesla), Odometry, Imu, TFMessage on
-/// /tf_static, and poses as PoseStamped. The log appears under its final name only when closed; a writer that is
-/// dropped unclosed leaves nothing behind.
+/// /tf_static, and poses as PoseStamped. The log appears under its final name only when closed; a writer that
+/// is dropped unclosed leaves nothing behind.
 class RecordingWriter {
  public:
-  static Result<RecordingWriter> open(const std::filesystem::path& file, const Rig& rig, const Topics& topics);
+  static Result<RecordingWriter> open(const std::filesystem::path& file, const Rig& rig,
+                                      const Topics& topics);
   RecordingWriter(RecordingWriter&&) noexcept;
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
   ~RecordingWriter();
 
-  /// Errors: a full disk, or a stamp before the Unix epoch.
+  /// Events go to the topic of their kind, and nowhere if that has no name. An OdometryRestart may only come first: a
+  /// log holds one run of odometry. Errors: a full disk, a stamp that ROS cannot hold (before 1970 or after 2038), a
+  /// restart in the middle.
   Result<void> write(const SensorEvent& event);
   Result<void> close();
 

@@ -1,0 +1,25 @@
+#include "mstsl/localize/motion.hpp"
+
+#include <cmath>
+
+namespace mstsl {
+
+Pose2 straight_motion(const Pose2& from, double distance_m, double turn_rad) {
+  return Pose2::from({from.x + distance_m * std::cos(from.yaw), from.y + distance_m * std::sin(from.yaw)},
+                     from.yaw + turn_rad);
+}
+
+Eigen::Matrix3d moved_covariance(const Pose2& map_T_base, const Eigen::Matrix3d& covariance, const Pose2& step,
+                                 const OdometryErrors& errors) {
+  const Eigen::Vector2d shift = map_T_base.rotation() * step.position();
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
+  by_pose(0, 2) = -shift.y();
+  by_pose(1, 2) = shift.x();
+  const double distance_m = step.position().norm();
+  const double position_m = errors.position_share * distance_m;
+  const double yaw_rad = std::hypot(errors.yaw_per_m_rad * distance_m, errors.yaw_share * step.yaw);
+  const Eigen::Vector3d added(position_m * position_m, position_m * position_m, yaw_rad * yaw_rad);
+  return by_pose * covariance * by_pose.transpose() + Eigen::Matrix3d(added.asDiagonal());
+}
+
+}  // namespace mstsl
