@@ -17,6 +17,7 @@
 #include "field_map_check.hpp"
 #include "file_problem.hpp"
 #include "netcdf_file.hpp"
+#include "seal.hpp"
 
 namespace mstsl::io {
 namespace {
@@ -189,12 +190,13 @@ Result<std::string> encode_field_map(const FieldMap& map, const std::filesystem:
     write_attributes(file, map);
     write_grid(file, map);
     write_fingerprints(file, map.fingerprints);
-    return file.finish();
+    return sealed(file.finish());
   });
 }
 
 Result<FieldMap> decode_field_map(std::string_view bytes, const std::filesystem::path& name) {
   return guarded(name, [&] {
+    check_seal(bytes);
     const NetcdfReader file(bytes);
     FieldMap map;
     map.model = read_model(file);

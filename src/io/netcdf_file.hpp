@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-/// The little of the NetCDF-4 C library that field maps need. Everything throws FileProblem. Files are made and read
-/// in memory, so that nothing half written ever reaches the disk and a full disk is noticed by our own writer.
+/// The little of the NetCDF-4 C library that field maps need. Everything throws FileProblem. Files are made in a scratch
+/// file and read from memory, so that the library neither locks nor half-writes the user's file.
 namespace mstsl::io {
 
 /// Held while a NetcdfWriter or NetcdfReader lives: the C library may be entered by one thread at a time.
@@ -22,6 +22,19 @@ class NetcdfLock {
   std::unique_lock<std::mutex> lock_;
 };
 
+/// A file of the system's folder for temporary files, gone with the object.
+class ScratchFile {
+ public:
+  ScratchFile();
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile();
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
 class NetcdfWriter {
  public:
   NetcdfWriter();
@@ -31,7 +44,7 @@ class NetcdfWriter {
 
   /// Adds a dimension; expects length > 0 (NetCDF reads 0 as "unlimited").
   int dimension(const char* name, std::size_t length);
-  /// Adds a compressed, checksummed variable; float variables have NaN as their fill value.
+  /// Adds a compressed variable; float variables have NaN as their fill value.
   int variable(const char* name, const std::vector<int>& dimensions, const std::vector<float>& values);
   int variable(const char* name, const std::vector<int>& dimensions, const std::vector<double>& values);
   int variable(const char* name, const std::vector<int>& dimensions, const std::vector<std::uint8_t>& values);
@@ -46,6 +59,7 @@ class NetcdfWriter {
 
  private:
   int define(const char* name, int type, const std::vector<int>& dimensions);
+  ScratchFile scratch_;
   NetcdfLock lock_;
   int id_ = -1;
 };

@@ -1,9 +1,15 @@
 #include <hdf5.h>
 #include <netcdf.h>
-#include <netcdf_mem.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
+#include <system_error>
+#include <utility>
+
+#include "mstsl/io/file_bytes.hpp"
 
 #include "file_problem.hpp"
 #include "netcdf_file.hpp"
@@ -12,7 +18,7 @@ namespace mstsl::io {
 namespace {
 
 void check(int status) {
-  if (status != NC_NOERR) throw FileProblem("NetCDF cannot write it: {}", nc_strerror(status));
+  if (status != NC_NOERR) throw FileProblem("NetCDF cannot make it ({}); is the folder for temporary files full?", nc_strerror(status));
 }
 
 std::mutex& library_mutex() {
@@ -26,7 +32,20 @@ NetcdfLock::NetcdfLock() : lock_(library_mutex()) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // NetCDF silences HDF5 too, but only for the thread that came first
 }
 
-NetcdfWriter::NetcdfWriter() { check(nc_create_mem("memory", NC_NETCDF4 | NC_CLOBBER, 0, &id_)); }
+ScratchFile::ScratchFile() {
+  std::error_code ignored;
+  name_ = (std::filesystem::temp_directory_path(ignored) / "mstsl-XXXXXX").string();
+  const int descriptor = mkstemp(name_.data());
+  if (descriptor < 0)
+    throw FileProblem("no temporary file can be made as {}: {}; set TMPDIR to a folder that you may write to", name_,
+                      std::generic_category().message(errno));
+  ::close(descriptor);
+}
+
+ScratchFile::~ScratchFile() { unlink(name_.c_str()); }
+
+// Not nc_create_mem(): what it makes does not track the order of its parts, and no program can open it for writing.
+NetcdfWriter::NetcdfWriter() { check(nc_create(scratch_.name().c_str(), NC_NETCDF4 | NC_CLOBBER, &id_)); }
 
 NetcdfWriter::~NetcdfWriter() {
   if (id_ >= 0) nc_abort(id_);
@@ -43,7 +62,6 @@ int NetcdfWriter::define(const char* name, int type, const std::vector<int>& dim
   int variable = -1;
   check(nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
   check(nc_def_var_deflate(id_, variable, NC_SHUFFLE, 1, kDeflateLevel));
-  check(nc_def_var_fletcher32(id_, variable, NC_FLETCHER32));
   return variable;
 }
 
@@ -87,13 +105,10 @@ void NetcdfWriter::attribute(int variable, const char* name, const std::vector<s
 }
 
 std::string NetcdfWriter::finish() {
-  NC_memio memory{};
-  const int status = nc_close_memio(id_, &memory);
-  id_ = -1;
-  check(status);
-  std::string bytes(static_cast<const char*>(memory.memory), memory.size);
-  std::free(memory.memory);
-  return bytes;
+  check(nc_close(std::exchange(id_, -1)));
+  Result<std::string> bytes = read_file(scratch_.name(), std::numeric_limits<std::size_t>::max());
+  if (!bytes) throw FileProblem("{}", bytes.error().message());
+  return *std::move(bytes);
 }
 
 }  // namespace mstsl::io

@@ -7,11 +7,10 @@
 
 namespace mstsl::test {
 
-/// Calls `parse` with each prefix of up to 2000 lengths and with `count` damaged copies of a good file: single bits,
-/// overwritten runs, cut-out and repeated pieces. `parse` must answer, with a value or an error, and not crash.
+/// Calls `parse` with up to `count` prefixes and `count` damaged copies of a good file: single bits, overwritten runs, cut-out and repeated pieces. `parse` must answer, with a value or an error, and not crash.
 inline void for_each_damage(const std::string& good, int count, Random random,
                             const std::function<void(const std::string&)>& parse) {
-  const std::size_t step = good.size() / 2000 + 1;
+  const std::size_t step = good.size() / static_cast<std::size_t>(count) + 1;
   for (std::size_t length = 0; length < good.size(); length += step) parse(good.substr(0, length));
   for (int i = 0; i < count; ++i) {
     std::string bad = good;

@@ -2,7 +2,6 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -101,9 +100,13 @@ Result<PlayReport> play(const std::vector<std::filesystem::path>& files, const P
         fmt::format("the reorder window is {} s; choose one from 0 to 60 s", options.reorder_window_s));
   Player player(options, on_header, on_event);
   for (const std::filesystem::path& file : files) {
-    const Result<bool> goes_on = player.play(file);
-    if (!goes_on) return goes_on.error();
-    if (!*goes_on) break;
+    try {
+      const Result<bool> goes_on = player.play(file);
+      if (!goes_on) return goes_on.error();
+      if (!*goes_on) break;
+    } catch (const std::bad_alloc&) {
+      return Error(file.string() + ": playing it needs more memory than there is");
+    }
   }
   return std::move(player).report();
 }

@@ -1,6 +1,7 @@
 #include "io/log/topic_check.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,8 +74,14 @@ Result<void> check_topics(const std::string& log_name, const std::vector<Channel
   const bool empty =
       std::ranges::all_of(channels, [](const Channel& channel) { return channel.message_count == 0; });
   if (empty) return Error(log_name + ": the log holds no messages; record it again");
+  std::map<std::string, std::string_view> roles;
   for (const Need& need : needs(topics)) {
     if (need.topic.empty()) continue;
+    const auto [other, is_new] = roles.try_emplace(need.topic, need.option);
+    if (!is_new)
+      return Error(
+          fmt::format("topic {} is named as the {} topic and as the {} topic; it can only be one of them",
+                      need.topic, other->second, need.option));
     if (const Result<void> checked = check(log_name, channels, need); !checked) return checked;
   }
   return {};

@@ -25,11 +25,10 @@ ros::Encoding encoding_from(const std::string& name) {
 
 class McapLog final : public MessageLog {
  public:
-  McapLog(InputFile file, mcap::Summary summary, bool has_summary)
-      : file_(std::move(file)), summary_(std::move(summary)), has_summary_(has_summary) {
+  McapLog(InputFile file, mcap::Summary summary) : file_(std::move(file)), summary_(std::move(summary)) {
     for (const auto& [id, channel] : summary_.channels) {
       const auto schema = summary_.schemas.find(channel.schema_id);
-      const auto& counts = summary_.statistics->channel_message_counts;
+      const auto& counts = summary_.statistics.channel_message_counts;
       const auto count = counts.find(id);
       position_[id] = channels_.size();
       channels_.push_back(
@@ -41,7 +40,7 @@ class McapLog final : public MessageLog {
   const std::vector<Channel>& channels() const override { return channels_; }
 
   std::optional<TimeSpan> time_span() const override {
-    const mcap::Statistics& statistics = *summary_.statistics;
+    const mcap::Statistics& statistics = summary_.statistics;
     if (statistics.message_count == 0) return std::nullopt;
     return TimeSpan{{static_cast<std::int64_t>(statistics.start_time)},
                     {static_cast<std::int64_t>(statistics.end_time)}};
@@ -53,7 +52,6 @@ class McapLog final : public MessageLog {
   class Pass;
   InputFile file_;
   mcap::Summary summary_;
-  bool has_summary_;
   std::vector<Channel> channels_;
   std::map<std::uint16_t, std::size_t> position_;  ///< of a channel id in channels_
 };
@@ -177,8 +175,8 @@ void McapLog::Pass::deliver(const mcap::Message& message) {
 }
 
 void McapLog::Pass::end_of_data(const mcap::Record& record) {
-  if (!log_.has_summary_)
-    warn(fmt::format("{}: the log has no index, or a damaged one; it was read from front to back",
+  if (log_.summary_.is_damaged)
+    warn(fmt::format("{}: the index at the end of the log is damaged; the log was read from front to back",
                      log_.file_.name()));
   const std::optional<std::uint32_t> crc = stream_.crc_before();
   if (crc && *crc != log_.summary_.data_crc)
@@ -199,11 +197,8 @@ bool is_mcap(const InputFile& file) {
 
 Result<std::unique_ptr<MessageLog>> open_mcap(InputFile file) {
   if (!is_mcap(file)) return Error(fmt::format("{}: is not an MCAP file of format version 0", file.name()));
-  std::optional<mcap::Summary> summary = mcap::read_summary(file);
-  const bool has_summary = summary.has_value();
-  if (!summary) summary = mcap::scan_summary(file);
-  return std::unique_ptr<MessageLog>(
-      std::make_unique<McapLog>(std::move(file), *std::move(summary), has_summary));
+  mcap::Summary summary = mcap::summarize(file);
+  return std::unique_ptr<MessageLog>(std::make_unique<McapLog>(std::move(file), std::move(summary)));
 }
 
 }  // namespace mstsl::io

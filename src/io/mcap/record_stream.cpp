@@ -5,6 +5,12 @@
 #include "io/compression.hpp"
 
 namespace mstsl::io::mcap {
+namespace {
+
+/// A chunk is held in memory as a whole by those who write and read it; none comes near this.
+constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 30;
+
+}  // namespace
 
 RecordStream::RecordStream(const InputFile& file, std::uint64_t offset, bool sum_up)
     : reader_(file), next_offset_(offset) {
@@ -30,6 +36,7 @@ std::optional<Record> RecordStream::next() {
 }
 
 void RecordStream::load(Record& record) {
+  if (record.content_size > kLargestRecord && reader_.remaining() > kLargestRecord) return;
   const std::optional<ByteView> content = reader_.take(std::min(record.content_size, reader_.remaining()));
   record.content = content.value_or(ByteView{});
   if (crc_) crc_ = crc32(record.content, *crc_);

@@ -25,7 +25,8 @@ class RecordStream {
 
   /// Opcode and size of the next record, its content not yet read; nothing where the file ends.
   std::optional<Record> next();
-  /// Reads the content of the record that next() just gave, or as much of it as is there.
+  /// Reads the content of the record that next() just gave, or as much of it as is there. A record larger
+  /// than any writer makes keeps an empty content.
   void load(Record& record);
   void seek(std::uint64_t offset);
 

@@ -1,5 +1,7 @@
 #include "io/mcap/summary.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "io/compression.hpp"
@@ -39,7 +41,15 @@ std::uint32_t read_data_crc(const InputFile& file, std::uint64_t data_end) {
   return opcode == Opcode::kDataEnd && right_size ? in.number<std::uint32_t>() : 0;
 }
 
-void collect(Summary& summary, Opcode opcode, ByteView content) {
+/// What a summary section says, and whether it counts its channels: without that no one knows if all are
+/// named.
+struct Collected {
+  Summary summary;
+  bool has_statistics = false;
+};
+
+void collect(Collected& all, Opcode opcode, ByteView content) {
+  Summary& summary = all.summary;
   if (opcode == Opcode::kSchema) {
     if (auto schema = parse_schema(content)) summary.schemas.try_emplace(schema->id, std::move(*schema));
   } else if (opcode == Opcode::kChannel) {
@@ -48,8 +58,34 @@ void collect(Summary& summary, Opcode opcode, ByteView content) {
     if (auto index = parse_chunk_index(content))
       summary.chunks.try_emplace(index->chunk_offset, std::move(*index));
   } else if (opcode == Opcode::kStatistics) {
-    summary.statistics = parse_statistics(content);
+    if (auto statistics = parse_statistics(content)) {
+      summary.statistics = std::move(*statistics);
+      all.has_statistics = true;
+    }
   }
+}
+
+enum class Found { kNone, kDamaged, kIncomplete, kWhole };
+
+Found read_summary(const InputFile& file, const FooterPlace& place, Summary& summary) {
+  const auto& [footer, footer_offset] = place;
+  const std::uint64_t start = footer.summary_start;
+  if (start == 0) return Found::kNone;
+  if (start < kMagic.size() || start >= footer_offset || footer_offset - start > kLargestSummary)
+    return Found::kDamaged;
+  constexpr std::uint64_t kFooterBeforeCrc = kFooterSize - sizeof(footer.summary_crc);
+  Bytes bytes(static_cast<std::size_t>(footer_offset + kFooterBeforeCrc - start));
+  if (!file.read_at(start, bytes)) return Found::kDamaged;
+  if (footer.summary_crc != 0 && crc32(bytes) != footer.summary_crc) return Found::kDamaged;
+
+  Collected all;
+  const ByteView records = ByteView(bytes).first(bytes.size() - kFooterBeforeCrc);
+  if (!for_each_record(records, [&all](Opcode opcode, ByteView content) { collect(all, opcode, content); }))
+    return Found::kDamaged;
+  if (!all.has_statistics || all.summary.channels.size() != all.summary.statistics.channel_count)
+    return Found::kIncomplete;
+  summary = std::move(all.summary);
+  return Found::kWhole;
 }
 
 void count(Statistics& statistics, const Message& message) {
@@ -59,36 +95,11 @@ void count(Statistics& statistics, const Message& message) {
   ++statistics.channel_message_counts[message.channel_id];
 }
 
-}  // namespace
-
-std::optional<Summary> read_summary(const InputFile& file) {
-  const std::optional<FooterPlace> place = find_footer(file);
-  if (!place) return std::nullopt;
-  const auto& [footer, footer_offset] = *place;
-  const std::uint64_t start = footer.summary_start;
-  if (start < kMagic.size() || start >= footer_offset || footer_offset - start > kLargestSummary)
-    return std::nullopt;
-
-  constexpr std::uint64_t kFooterBeforeCrc = kFooterSize - sizeof(footer.summary_crc);
-  Bytes bytes(static_cast<std::size_t>(footer_offset + kFooterBeforeCrc - start));
-  if (!file.read_at(start, bytes)) return std::nullopt;
-  if (footer.summary_crc != 0 && crc32(bytes) != footer.summary_crc) return std::nullopt;
-
-  Summary summary;
-  const ByteView records = ByteView(bytes).first(bytes.size() - kFooterBeforeCrc);
-  const bool whole = for_each_record(
-      records, [&summary](Opcode opcode, ByteView content) { collect(summary, opcode, content); });
-  const bool names_all = summary.statistics && summary.channels.size() == summary.statistics->channel_count;
-  if (!whole || !names_all) return std::nullopt;
-  summary.data_crc = read_data_crc(file, start);
-  return summary;
-}
-
-Summary scan_summary(const InputFile& file) {
-  Summary summary;
+Summary scan(const InputFile& file) {
+  Collected all;
   Statistics statistics;
   const auto take = [&](Opcode opcode, ByteView content) {
-    if (opcode == Opcode::kSchema || opcode == Opcode::kChannel) collect(summary, opcode, content);
+    if (opcode == Opcode::kSchema || opcode == Opcode::kChannel) collect(all, opcode, content);
     if (opcode != Opcode::kMessage) return;
     if (const std::optional<Message> message = parse_message(content)) count(statistics, *message);
   };
@@ -105,8 +116,19 @@ Summary scan_summary(const InputFile& file) {
       take(record->opcode, record->content);
     }
   }
-  summary.statistics = statistics;
-  if (const std::optional<FooterPlace> place = find_footer(file)) {
+  all.summary.statistics = std::move(statistics);
+  return std::move(all.summary);
+}
+
+}  // namespace
+
+Summary summarize(const InputFile& file) {
+  const std::optional<FooterPlace> place = find_footer(file);
+  Summary summary;
+  const Found found = place ? read_summary(file, *place, summary) : Found::kNone;
+  if (found != Found::kWhole) summary = scan(file);
+  summary.is_damaged = found == Found::kDamaged;
+  if (place && found != Found::kDamaged) {
     const std::uint64_t start = place->footer.summary_start;
     summary.data_crc = read_data_crc(file, start == 0 ? place->offset : start);
   }
