@@ -93,8 +93,10 @@ void add_lanes(WorldPlan& plan, const Layout& l) {
 
 void add_deck(WorldPlan& plan, const Layout& l, Random& random) {
   const AlignedBox2d area(Vector2d(-l.x, -l.y), Vector2d(l.x, l.y));
-  add_slab(plan.steel, {}, area, -0.05, random);
-  add_slab(plan.steel, {}, area, kCeiling_m, random);
+  for (const double z : {-0.05, kCeiling_m + 0.4}) {
+    add_slab(plan.steel, {}, area, z, random);
+    add_beams(plan.steel, {0, 0, radians(90)}, {Vector2d(-l.y, -l.x), Vector2d(l.y, l.x)}, z, kBaysPerPillar * kBayWidth_m / 2, random);
+  }
   for (int module = 0; module < l.modules; ++module)  // sprinkler and lighting along the aisles
     add_tray(plan.steel, {{l.aisle_x(module) + 0.8, -l.y}, {l.aisle_x(module) + 0.8, l.y}}, 2.3, random);
 }

@@ -84,14 +84,17 @@ void add_ring(WorldPlan& plan, std::vector<Wall> half, const WorldOptions& optio
 
 /// Floor, ceiling and the trays under it, corridor by corridor.
 void add_corridor_steel(WorldPlan& plan, Random& random) {
-  constexpr double kBeside_m = 1.0;  // slabs run on behind the walls
+  constexpr double kBeside_m = 1.0;      // slabs and beams run on behind the walls
+  constexpr double kFloor_m = -0.06, kCeiling_m = 3.2;
   for (const Lane& lane : plan.lanes) {
     const Vector2d along = lane.center.b - lane.center.a;
     const Pose2 start = Pose2::from(lane.center.a, std::atan2(along.y(), along.x()));
     const double half = 0.5 * lane.free_width_m + kBeside_m;
     const AlignedBox2d area(Vector2d(-half, -half), Vector2d(along.norm() + half, half));
-    add_slab(plan.steel, start, area, -0.06, random);
-    add_slab(plan.steel, start, area, 3.0, random);
+    for (const double z : {kFloor_m, kCeiling_m}) {
+      add_slab(plan.steel, start, area, z, random);
+      add_beams(plan.steel, start, area, z, 0.5 * kBay_m, random);
+    }
     for (const double side : {-0.3, 0.35})
       add_tray(plan.steel, start * Segment{{0, side * lane.free_width_m}, {along.norm(), side * lane.free_width_m}}, 2.6, random);
   }

@@ -91,8 +91,10 @@ void add_corridor(WorldPlan& plan, const Layout& l) {
 
 void add_structure(WorldPlan& plan, const Layout& l, Random& random) {
   const AlignedBox2d area(Vector2d(-l.x, -l.y), Vector2d(l.x, l.y));
-  add_slab(plan.steel, {}, area, -0.06, random);
-  add_slab(plan.steel, {}, area, 3.0, random);
+  for (const double z : {-0.06, 3.2}) {
+    add_slab(plan.steel, {}, area, z, random);
+    add_beams(plan.steel, {}, area, z, kRoomWidth_m, random);
+  }
   for (const double y : {-0.5, 0.6}) add_tray(plan.steel, {{-l.x, y}, {l.x, y}}, 2.6, random);
   for (double x = -l.x; x <= l.x; x += 2 * kRoomWidth_m)
     for (const double y : {-l.y, -0.5 * kCorridor_m - 0.2, 0.5 * kCorridor_m + 0.2, l.y}) add_concrete_column(plan.steel, {x, y}, kHeight_m, random);

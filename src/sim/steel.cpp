@@ -1,5 +1,6 @@
 #include "mstsl/sim/steel.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -12,7 +13,6 @@ constexpr double kSusceptibility = 200.0;
 constexpr double kAmperePerMetrePerMicrotesla = 1.0 / (0.4 * kPi);
 /// Charge in A m to uT m^2: mu0 / (4 pi) = 1e-7 T m / A.
 constexpr double kMicroteslaSquareMetrePerAmpereMetre = 0.1;
-constexpr double kChargeRadius_m = 0.05;
 
 /// Demagnetising factor along the long axis of a prolate ellipsoid (Osborn 1945, Eq. 2.17); `slenderness` > 1.
 double demagnetising_factor(double slenderness) {
@@ -21,10 +21,9 @@ double demagnetising_factor(double slenderness) {
   return (slenderness / root * std::log(slenderness + root) - 1.0) / m2;
 }
 
-/// r / |r|^3 outside the charge's ball, growing linearly inside it.
+/// r / |r|^3 outside the charge's ball, r / radius^3 inside it.
 Eigen::Vector3d unit_charge_field(const Eigen::Vector3d& r) {
-  const double squared = r.squaredNorm();
-  if (squared < kChargeRadius_m * kChargeRadius_m) return r / (kChargeRadius_m * kChargeRadius_m * kChargeRadius_m);
+  const double squared = std::max(r.squaredNorm(), kChargeRadius_m * kChargeRadius_m);
   return r / (squared * std::sqrt(squared));
 }
 

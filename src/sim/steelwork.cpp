@@ -11,16 +11,22 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Remanence of steel as it is found in buildings, A/m: soft bars little, bent and cold-formed sheet much. Handheld
-// surveys of reinforcing steel and door frames report 1e3 to 5e4; saturation would be 1.7e6.
+// Remanence of steel as it is found in buildings, A/m. Rolled and handled steel keeps 0.005 to 0.1 T (4e3 to 8e4 A/m):
+// lifting magnets, welding and bending leave the most; saturation would be 1.7e6. Set once so that the field's spread,
+// correlation length and gradients are those of the real recordings (tests/sim/field_statistics_test.cpp).
 constexpr double kBar_A_per_m = 1.2e4;
-constexpr double kSection_A_per_m = 4e3;
+constexpr double kSection_A_per_m = 2.2e4;
 constexpr double kSheet_A_per_m = 2.5e4;
-/// Pieces differ by their history (lifting magnets, welding, cutting): spread of the logarithm.
-constexpr double kHistorySpread = 0.8;
-/// Magnetisation changes its sign and size along a bar over about this length.
-constexpr double kLongestPiece_m = 2.5;
-constexpr double kShortestPiece_m = 0.6;
+constexpr double kColdFormed_A_per_m = 8e4;
+/// Pieces differ by their history: spread of the logarithm.
+constexpr double kHistorySpread = 0.5;
+
+/// Magnetisation changes its sign and size along a piece over such lengths, m.
+struct DomainLength {
+  double shortest_m, longest_m;
+};
+constexpr DomainLength kBarDomain{0.6, 2.5};
+constexpr DomainLength kBeamDomain{1.5, 5.0};
 
 double history(Random& random) { return std::exp(kHistorySpread * random.normal()); }
 
@@ -31,12 +37,13 @@ void add_rod(Rods& rods, const Vector3d& from_m, const Vector3d& to_m, double se
 }
 
 /// A long piece, cut where its magnetisation changes.
-void add_bar(Rods& rods, const Vector3d& from_m, const Vector3d& to_m, double section_m2, double remanence_sigma, Random& random) {
+void add_bar(Rods& rods, const Vector3d& from_m, const Vector3d& to_m, double section_m2, double remanence_sigma, Random& random,
+             DomainLength domain = kBarDomain) {
   const double whole_m = (to_m - from_m).norm();
   double done_m = 0.0;
   while (whole_m - done_m > 1e-6) {
-    double piece_m = random.uniform(kShortestPiece_m, kLongestPiece_m);
-    if (whole_m - done_m - piece_m < kShortestPiece_m) piece_m = whole_m - done_m;
+    double piece_m = random.uniform(domain.shortest_m, domain.longest_m);
+    if (whole_m - done_m - piece_m < domain.shortest_m) piece_m = whole_m - done_m;
     const Vector3d a = from_m + (to_m - from_m) * (done_m / whole_m);
     const Vector3d b = from_m + (to_m - from_m) * ((done_m + piece_m) / whole_m);
     add_rod(rods, a, b, section_m2, remanence_sigma, random);
@@ -69,6 +76,19 @@ void add_slab(Rods& rods, const Pose2& map_T_area, const Eigen::AlignedBox2d& ar
       add_bar(rods, lift(map_T_area * from, z_m), lift(map_T_area * to, z_m), kSection_m2, kBar_A_per_m, random);
     }
   }
+}
+
+void add_beams(Rods& rods, const Pose2& map_T_area, const Eigen::AlignedBox2d& area_m, double z_m, double spacing_m, Random& random) {
+  constexpr double kSection_m2 = 6.5e-3;  // IPE 300 is 5.4e-3, HEB 180 6.5e-3; as much as 13 bars of 25 mm
+  constexpr double kDepth_m = 0.3;        // of the beam's middle below the slab's
+  const Vector2d low = area_m.min(), high = area_m.max();
+  const auto add = [&](const Vector2d& from, const Vector2d& to) {
+    add_bar(rods, lift(map_T_area * from, z_m - kDepth_m), lift(map_T_area * to, z_m - kDepth_m), kSection_m2,
+            kSection_A_per_m * history(random), random, kBeamDomain);
+  };
+  for (double x = low.x() + 0.5 * std::fmod(high.x() - low.x(), spacing_m); x <= high.x(); x += spacing_m)
+    add({x, low.y()}, {x, high.y()});
+  for (const double y : {low.y(), high.y()}) add({low.x(), y}, {high.x(), y});
 }
 
 void add_concrete_column(Rods& rods, const Vector2d& at_m, double height_m, Random& random) {
@@ -136,7 +156,7 @@ void add_machine(Rods& rods, const Vector2d& at_m, double size_m, Random& random
 
 void add_car(Rods& rods, const Pose2& map_T_car, const Vector2d& size_m, Random& random) {
   constexpr double kSheet_m2 = 1.2e-3, kSolid_m2 = 4e-3;
-  const double sheet = kSheet_A_per_m * 0.4 * history(random), solid = kSection_A_per_m * history(random);
+  const double sheet = 0.4 * kSheet_A_per_m * history(random), solid = 0.3 * kSection_A_per_m * history(random);
   const auto at = [&](double x, double y, double z) { return lift(map_T_car * Vector2d(x * size_m.x(), y * size_m.y()), z); };
   add_rod(rods, at(0.25, -0.15, 0.5), at(0.4, 0.15, 0.6), 3 * kSolid_m2, solid, random);  // engine and gearbox
   for (const double x : {-0.3, 0.3}) add_rod(rods, at(x, -0.42, 0.3), at(x, 0.42, 0.3), kSolid_m2, solid, random);
@@ -148,8 +168,8 @@ void add_car(Rods& rods, const Pose2& map_T_car, const Vector2d& size_m, Random&
 }
 
 void add_rack_frame(Rods& rods, const Pose2& map_T_frame, double depth_m, double height_m, Random& random) {
-  constexpr double kPost_m2 = 5e-4, kBrace_m2 = 1.5e-4;
-  const double sigma = kSheet_A_per_m * 0.7 * history(random);
+  constexpr double kPost_m2 = 1e-3, kBrace_m2 = 2e-4;  // 120 mm section, 2.5 mm thick
+  const double sigma = kColdFormed_A_per_m * history(random);
   const Vector2d front = map_T_frame * Vector2d(0, -0.5 * depth_m), back = map_T_frame * Vector2d(0, 0.5 * depth_m);
   add_bar(rods, lift(front, 0.02), lift(front, height_m), kPost_m2, sigma, random);
   add_bar(rods, lift(back, 0.02), lift(back, height_m), kPost_m2, sigma, random);
@@ -157,8 +177,8 @@ void add_rack_frame(Rods& rods, const Pose2& map_T_frame, double depth_m, double
 }
 
 void add_rack_beam(Rods& rods, const Segment& course, double z_m, Random& random) {
-  constexpr double kSection_m2 = 6e-4;
-  add_bar(rods, lift(course.a, z_m), lift(course.b, z_m), kSection_m2, kSheet_A_per_m * 0.7 * history(random), random);
+  constexpr double kSection_m2 = 9e-4;  // box 120 x 50 mm, 2.5 mm thick
+  add_bar(rods, lift(course.a, z_m), lift(course.b, z_m), kSection_m2, kColdFormed_A_per_m * history(random), random);
 }
 
 }  // namespace mstsl::sim

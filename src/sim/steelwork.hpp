@@ -18,6 +18,9 @@ using Rods = std::vector<Rod>;
 /// A reinforced slab over a rectangle of a frame: bars of both directions in pieces, at height `z_m`.
 void add_slab(Rods& rods, const Pose2& map_T_area, const Eigen::AlignedBox2d& area_m, double z_m, Random& random);
 
+/// The beams that carry such a slab, in the depth below `z_m`: across the area every `spacing_m` and along its edges.
+void add_beams(Rods& rods, const Pose2& map_T_area, const Eigen::AlignedBox2d& area_m, double z_m, double spacing_m, Random& random);
+
 /// A reinforced-concrete or rolled-steel column from the floor to the ceiling.
 void add_concrete_column(Rods& rods, const Eigen::Vector2d& at_m, double height_m, Random& random);
 void add_steel_column(Rods& rods, const Eigen::Vector2d& at_m, double height_m, Random& random);

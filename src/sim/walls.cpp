@@ -1,5 +1,6 @@
 #include "walls.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mstsl/core/angles.hpp"
@@ -58,6 +59,14 @@ void add_columns(WorldPlan& plan, const Wall& wall, const Furnishing& furnishing
   }
 }
 
+/// No recess opens at a place.
+bool is_flat(const Wall& wall, double at_m) {
+  constexpr double kRadiator_m = 1.6;
+  return std::none_of(wall.reliefs.begin(), wall.reliefs.end(), [&](const Relief& relief) {
+    return relief.depth_m > 0 && std::abs(relief.at_m - at_m) < 0.5 * (relief.width_m + kRadiator_m);
+  });
+}
+
 }  // namespace
 
 void furnish(WorldPlan& plan, const Wall& wall, const Furnishing& furnishing, Random& random) {
@@ -68,7 +77,7 @@ void furnish(WorldPlan& plan, const Wall& wall, const Furnishing& furnishing, Ra
 
   constexpr double kStretch_m = 2.4;
   for (double at = 0.5 * kStretch_m; at < wall.length_m(); at += kStretch_m)
-    if (random.chance(furnishing.radiators))
+    if (random.chance(furnishing.radiators) && is_flat(wall, at))
       add_radiator(plan.steel, wall.frame_at(at) * Pose2{0, 0.06, 0}, random.uniform(0.8, 1.6), random);
 
   if (furnishing.hidden_spacing_m <= 0) return;

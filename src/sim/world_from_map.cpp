@@ -58,7 +58,10 @@ void add_steel(WorldPlan& plan, Random& random) {
     const Pose2 start = Pose2::from(lane.center.a, std::atan2(along.y(), along.x()));
     const double half = 0.5 * lane.free_width_m + 1.0;
     const AlignedBox2d area(Vector2d(-1.0, -half), Vector2d(along.norm() + 1.0, half));
-    for (const double z : {-0.06, 3.0}) add_slab(plan.steel, start, area, z, random);
+    for (const double z : {-0.06, 3.2}) {
+      add_slab(plan.steel, start, area, z, random);
+      add_beams(plan.steel, start, area, z, 3.6, random);
+    }
     add_tray(plan.steel, start * Segment{{0, 0.3 * lane.free_width_m}, {along.norm(), 0.3 * lane.free_width_m}}, 2.6, random);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -38,34 +39,43 @@ struct PolePair {
 /// own demagnetising field (prolate ellipsoid of the same slenderness, Osborn 1945).
 PolePair magnetised(const Rod& rod, const EarthField& earth);
 
-/// Field of one pair at a point, uT. Within 5 cm of a charge it is that of a charged ball, so it never diverges.
+/// A charge is a ball of this radius, inside which its field falls to 0: it never diverges.
+inline constexpr double kChargeRadius_m = 0.05;
+
+/// Field of one pair at a point, uT.
 Eigen::Vector3d field_uT(const PolePair& pair, const Eigen::Vector3d& position_m);
 
-/// Earth plus many pole pairs, summed fast: near buckets pair by pair, far ones as one dipole each. A test bounds the
-/// error against the plain sum.
+/// Earth plus many pole pairs, summed fast by a tree (Barnes & Hut 1986): near pairs one by one, far groups of them as
+/// one dipole each. A test bounds the error against the plain sum.
 class SteelField {
  public:
   SteelField() = default;
   SteelField(const EarthField& earth, std::vector<PolePair> pairs);
 
   const EarthField& earth() const { return earth_; }
+  /// The pairs, in an order of the tree's own.
   const std::vector<PolePair>& pairs() const { return pairs_; }
 
   /// The flux density at a point of the building, map frame, uT.
   Eigen::Vector3d field_uT(const Eigen::Vector3d& position_m) const;
 
  private:
-  struct Bucket {
-    Eigen::Vector3d middle_m;        ///< centre of its charges, weighted by strength
-    Eigen::Vector3d moment_uTm3;     ///< sum of q * (positive - negative)
-    double near_m2;                  ///< squared distance within which its pairs are summed one by one
-    std::uint32_t first, last;       ///< its range in pairs_
+  struct Node {
+    Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();     ///< of its pairs, weighted by their moments
+    Eigen::Vector3d moment_uTm3 = Eigen::Vector3d::Zero();  ///< sum of q * (positive - negative)
+    double near_m2 = 0.0;              ///< squared distance within which it must be looked at more closely
+    std::uint32_t first = 0, last = 0; ///< its range in pairs_
+    std::uint32_t next = 0;            ///< the node after its last descendant; a leaf's own successor
   };
+
+  void build(std::size_t first, std::size_t last);
+  Eigen::Vector3d near_field_uT(const Node& leaf, const Eigen::Vector3d& position_m) const;
 
   EarthField earth_;
   Eigen::Vector3d background_uT_ = EarthField{}.in_map_uT();
-  std::vector<PolePair> pairs_;      ///< bucket by bucket
-  std::vector<Bucket> buckets_;
+  std::vector<PolePair> pairs_;
+  Eigen::Array<double, Eigen::Dynamic, 4> charges_;  ///< x, y, z in m and strength, two rows a pair: for fast sums
+  std::vector<Node> nodes_;                          ///< depth first
 };
 
 }  // namespace mstsl::sim
