@@ -71,10 +71,7 @@ void LidarStage::observe(const std::vector<BeamReturn>& returns_base, const Pose
   const bool due = since_match_m_ >= options_.match_every_m || since_match_rad_ >= options_.match_every_rad;
   if (!first && !due) return;
   since_match_m_ = since_match_rad_ = 0.0;
-  PointSet points;
-  points.reserve(returns_base.size());
-  for (const BeamReturn& beam : returns_base) points.push_back(beam.point_m);
-  match_all(points);
+  match_all(end_points(returns_base));
 }
 
 void LidarStage::move_hypotheses(const Pose2& moved, bool local_map_begins) {

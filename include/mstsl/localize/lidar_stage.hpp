@@ -31,7 +31,7 @@ struct LidarStageOptions {
   /// reaches the next look-alike.
   double min_sigma_m = 0.3;
   double max_sigma_m = 1.0;
-  OdometryErrors odometry;
+  OdometryNoise odometry;
   LocalMapOptions local_map;
   SubmapMatchOptions match;
   /// The paper's S below which a hypothesis is false.
