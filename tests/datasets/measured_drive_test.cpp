@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <variant>
@@ -58,6 +59,8 @@ class MeasuredDrive : public testing::Test {
   std::vector<Fingerprint> rows_ = walk();
   std::shared_ptr<const sim::World> world_ = corridor_around(rows_);
   sim::RobotOptions robot_ = robot_with_real_magnetometer();
+
+  MeasuredDrive() { robot_.lidar.rate_hz = 0.0; }
 };
 
 TEST_F(MeasuredDrive, ReadsTheFirstRowsFieldTurnedIntoTheBodyWhileItStands) {
@@ -105,6 +108,7 @@ TEST_F(MeasuredDrive, StartsWithAnyHeadingAndEndsAlongThePath) {
 }
 
 TEST_F(MeasuredDrive, SeesItsCorridorsWalls) {
+  robot_.lidar.rate_hz = 1.0;
   const auto scans = played(measured_run(world_, rows_, robot_, Random(1))).all<LaserScan>();
   ASSERT_FALSE(scans.empty());
   float nearest_m = 100.0F;
@@ -122,6 +126,7 @@ TEST_F(MeasuredDrive, SaysTheSameEachTimeItIsPlayed) {
 }
 
 TEST_F(MeasuredDrive, SurveysWithoutALidar) {
+  robot_.lidar.rate_hz = 40.0;
   const Played survey = played(measured_survey(world_, rows_, robot_, Random(1)));
   EXPECT_TRUE(survey.all<LaserScan>().empty());
   EXPECT_FALSE(survey.all<FieldReading>().empty());
