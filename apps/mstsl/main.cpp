@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <exception>
+
+#include <fmt/format.h>
 
 #include "interrupt.hpp"
 #include "session.hpp"
@@ -9,7 +9,9 @@
 namespace mstsl::app {
 
 void add_common_options(CLI::App& command, Session& session) {
-  command.add_option("--threads", session.threads.count, "Threads to use; 0 takes all cores. Never changes results")
+  command
+      .add_option("--threads", session.threads.count,
+                  "Threads to use; 0 takes all cores. Never changes results")
       ->check(CLI::Range(0, 1024));
   command.add_option("--seed", session.seed, "Seed of everything random")->capture_default_str();
   command.add_flag("--quiet", session.quiet, "Print errors only");
@@ -28,7 +30,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", MSTSL_VERSION);
   app.require_subcommand(1);
   Session session;
-  for (const auto add : {add_demo, add_simulate, add_map, add_localize, add_evaluate, add_bench, add_convert, add_info})
+  for (const auto add :
+       {add_demo, add_simulate, add_map, add_localize, add_evaluate, add_bench, add_convert, add_info})
     add(app, session);
   try {
     app.parse(argc, argv);

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+
+#include <CLI/CLI.hpp>
 
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
@@ -24,7 +25,8 @@ struct Session {
 /// Adds --threads, --seed, --quiet and --json to a subcommand.
 void add_common_options(CLI::App& command, Session& session);
 
-// One file a subcommand, no algorithm in it: each adds itself to the command line and sets session.work when chosen.
+// One file a subcommand, no algorithm in it: each adds itself to the command line and sets session.work when
+// chosen.
 void add_bench(CLI::App& app, Session& session);
 void add_convert(CLI::App& app, Session& session);
 void add_demo(CLI::App& app, Session& session);

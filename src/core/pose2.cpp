@@ -41,7 +41,8 @@ Eigen::Isometry3d to_isometry3(const Pose2& pose) {
 }
 
 Pose2 to_pose2(const Eigen::Isometry3d& motion) {
-  return {motion.translation().x(), motion.translation().y(), std::atan2(motion.linear()(1, 0), motion.linear()(0, 0))};
+  return {motion.translation().x(), motion.translation().y(),
+          std::atan2(motion.linear()(1, 0), motion.linear()(0, 0))};
 }
 
 double distance(const Pose2& a, const Pose2& b) { return (a.position() - b.position()).norm(); }

@@ -10,7 +10,7 @@
 namespace mstsl::io {
 namespace {
 
-constexpr std::size_t kPieceBytes = 1 << 20;
+constexpr std::size_t kPieceBytes = 1 << 16;
 
 Error cannot_read(const std::filesystem::path& file, const std::string& reason) {
   return Error(fmt::format("cannot read {}: {}", file.string(), reason));

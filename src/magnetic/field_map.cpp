@@ -7,8 +7,10 @@
 namespace mstsl {
 namespace {
 
-constexpr std::array<std::pair<FieldModel, std::string_view>, 3> kNames{{
-    {FieldModel::kGpr, "gpr"}, {FieldModel::kBilinear, "bilinear"}, {FieldModel::kFingerprint, "fingerprint"}}};
+constexpr std::array<std::pair<FieldModel, std::string_view>, 3> kNames{
+    {{FieldModel::kGpr, "gpr"},
+     {FieldModel::kBilinear, "bilinear"},
+     {FieldModel::kFingerprint, "fingerprint"}}};
 
 }  // namespace
 
@@ -31,7 +33,8 @@ bool FieldMap::has_value(Cell cell) const {
 std::optional<FieldPrediction> FieldMap::at(const Eigen::Vector2d& map_point_m) const {
   const Eigen::Vector2d from_center = geometry.to_grid(map_point_m) - Eigen::Vector2d(0.5, 0.5);
   if (!from_center.allFinite() || from_center.cwiseAbs().maxCoeff() > 1e9) return std::nullopt;
-  const Cell low{static_cast<int>(std::floor(from_center.x())), static_cast<int>(std::floor(from_center.y()))};
+  const Cell low{static_cast<int>(std::floor(from_center.x())),
+                 static_cast<int>(std::floor(from_center.y()))};
   const double u = from_center.x() - low.column;
   const double v = from_center.y() - low.row;
   FieldPrediction sum;

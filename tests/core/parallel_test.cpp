@@ -1,8 +1,8 @@
 #include "mstsl/core/parallel.hpp"
 
-#include <gtest/gtest.h>
-
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/random.hpp"
 

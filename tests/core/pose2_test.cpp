@@ -1,8 +1,8 @@
 #include "mstsl/core/pose2.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/core/random.hpp"

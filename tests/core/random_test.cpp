@@ -1,8 +1,8 @@
 #include "mstsl/core/random.hpp"
 
-#include <gtest/gtest.h>
-
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace mstsl {
 namespace {

@@ -1,17 +1,18 @@
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "mstsl/core/result.hpp"
 
 namespace mstsl::test {
 
-/// The value of a Result; on an error the test fails with its sentence and ends by the exception GoogleTest catches.
+/// The value of a Result; on an error the test fails with its sentence and ends by the exception GoogleTest
+/// catches.
 template <typename T>
 T must(Result<T> result) {
   if (!result) throw std::runtime_error("unexpected error: " + result.error().message());
@@ -42,11 +43,13 @@ class TemporaryFolder {
 };
 
 /// A file of the real recordings.
-inline std::filesystem::path data_file(const std::string& name) { return std::filesystem::path(MSTSL_DATA_DIR) / name; }
+inline std::filesystem::path data_file(const std::string& name) {
+  return std::filesystem::path(MSTSL_DATA_DIR) / name;
+}
 
 }  // namespace mstsl::test
 
 /// Skips the test, saying which real recording is missing.
-#define MSTSL_REQUIRE_DATA(name)                             \
+#define MSTSL_REQUIRE_DATA(name)                              \
   if (!std::filesystem::exists(mstsl::test::data_file(name))) \
   GTEST_SKIP() << "real data absent: " << mstsl::test::data_file(name)

@@ -12,8 +12,9 @@ class Random {
  public:
   explicit Random(std::uint64_t seed);
 
-  /// An independent generator for one part of the work (a run, a sensor, a tile). It depends on this one's seed and
-  /// `stream` only, not on how many numbers were drawn, so that parts can be made in any order, on any thread.
+  /// An independent generator for one part of the work (a run, a sensor, a tile). It depends on this one's
+  /// seed and `stream` only, not on how many numbers were drawn, so that parts can be made in any order, on
+  /// any thread.
   [[nodiscard]] Random fork(std::uint64_t stream) const;
 
   /// In [0, 1).

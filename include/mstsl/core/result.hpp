@@ -24,7 +24,8 @@ class Error {
   std::string message_;
 };
 
-/// A value or the Error that stands in its place. Never both, never neither; asking the wrong one is our mistake.
+/// A value or the Error that stands in its place. Never both, never neither; asking the wrong one is our
+/// mistake.
 template <typename T>
 class [[nodiscard]] Result {
   static_assert(!std::is_same_v<T, Error>, "a Result of an Error says nothing");

@@ -1,16 +1,17 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <optional>
 #include <variant>
 #include <vector>
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
 #include "mstsl/core/pose2.hpp"
 #include "mstsl/core/stamp.hpp"
 
-/// What a robot measures, in SI units and microtesla, free of any file format. Readers and the simulator make these;
-/// the estimators consume them.
+/// What a robot measures, in SI units and microtesla, free of any file format. Readers and the simulator make
+/// these; the estimators consume them.
 namespace mstsl {
 
 /// Wheel odometry: the pose of base_link in the drifting but continuous frame `odom`.
@@ -24,8 +25,9 @@ struct OdometryRestart {
   Stamp stamp;
 };
 
-/// A planar scan in the frame `laser`: beam i points to angle_min_rad + i * angle_increment_rad and is taken at
-/// stamp + i * time_increment_s. A range that is not finite or outside [range_min_m, range_max_m] is no return.
+/// A planar scan in the frame `laser`: beam i points to angle_min_rad + i * angle_increment_rad and is taken
+/// at stamp + i * time_increment_s. A range that is not finite or outside [range_min_m, range_max_m] is no
+/// return.
 struct LaserScan {
   Stamp stamp;
   double angle_min_rad = 0.0;

@@ -13,8 +13,10 @@ template <typename T>
 class Grid {
  public:
   Grid() = default;
-  explicit Grid(const GridGeometry& geometry, const T& value = T{}) : geometry_(geometry), values_(geometry.size(), value) {}
-  Grid(const GridGeometry& geometry, std::vector<T> values) : geometry_(geometry), values_(std::move(values)) {
+  explicit Grid(const GridGeometry& geometry, const T& value = T{})
+      : geometry_(geometry), values_(geometry.size(), value) {}
+  Grid(const GridGeometry& geometry, std::vector<T> values)
+      : geometry_(geometry), values_(std::move(values)) {
     assert(values_.size() == geometry_.size());
   }
 

@@ -10,11 +10,12 @@
 namespace mstsl::io {
 
 /// Writes sensor events as a ROS 2 MCAP log: LaserScan, MagneticField (in tesla), Odometry, Imu, TFMessage on
-/// /tf_static, and poses as PoseStamped. The log appears under its final name only when closed; a writer that is
-/// dropped unclosed leaves nothing behind.
+/// /tf_static, and poses as PoseStamped. The log appears under its final name only when closed; a writer that
+/// is dropped unclosed leaves nothing behind.
 class RecordingWriter {
  public:
-  static Result<RecordingWriter> open(const std::filesystem::path& file, const Rig& rig, const Topics& topics);
+  static Result<RecordingWriter> open(const std::filesystem::path& file, const Rig& rig,
+                                      const Topics& topics);
   RecordingWriter(RecordingWriter&&) noexcept;
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
   ~RecordingWriter();

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/core/pose2.hpp"
 #include "mstsl/core/stamp.hpp"
@@ -26,11 +27,11 @@ struct Estimate {
   Stamp stamp;
   double travelled_m = 0.0;
   LocalizationStatus status = LocalizationStatus::kSearching;
-  std::optional<Pose2> map_T_base;                         ///< nothing unless localized
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of x, y (m) and yaw (rad), map frame
-  double probability = 0.0;                                ///< that the pose is right: within 0.5 m and 10 deg
-  std::vector<Hypothesis> hypotheses;                      ///< best first
-  std::optional<Eigen::Vector3d> bias_uT;                  ///< of the magnetometer, sensor frame, where estimated
+  std::optional<Pose2> map_T_base;                       ///< nothing unless localized
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of x, y (m) and yaw (rad), map frame
+  double probability = 0.0;                              ///< that the pose is right: within 0.5 m and 10 deg
+  std::vector<Hypothesis> hypotheses;                    ///< best first
+  std::optional<Eigen::Vector3d> bias_uT;  ///< of the magnetometer, sensor frame, where estimated
 };
 
 }  // namespace mstsl
