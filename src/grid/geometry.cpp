@@ -1,24 +1,11 @@
 #include "mstsl/grid/geometry.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "mstsl/grid/frame.hpp"
 
 namespace mstsl {
-namespace {
-
-/// Far outside any grid, yet safe to convert: a NaN or a huge coordinate falls into no cell.
-int to_cell_index(double coordinate_cells) {
-  constexpr double kFar = 1e9;
-  if (!(std::abs(coordinate_cells) < kFar))
-    return coordinate_cells > 0 ? static_cast<int>(kFar) : -static_cast<int>(kFar);
-  return static_cast<int>(std::floor(coordinate_cells));
-}
-
-}  // namespace
 
 Cell GridGeometry::cell_at(const Eigen::Vector2d& map_point_m) const {
-  const Eigen::Vector2d p = to_grid(map_point_m);
-  return {to_cell_index(p.x()), to_cell_index(p.y())};
+  return GridFrame::cell_of(to_grid(map_point_m));
 }
 
 Eigen::Vector2d GridGeometry::center_of(Cell cell) const {

@@ -21,7 +21,7 @@ struct GridGeometry {
   double resolution_m = 0.05;
   int columns = 0;
   int rows = 0;
-  Pose2 map_T_grid;  ///< the outer corner of cell (0, 0), with the grid's yaw
+  Pose2 map_T_grid = {};  ///< the outer corner of cell (0, 0), with the grid's yaw
 
   std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
   bool contains(Cell cell) const {

@@ -6,11 +6,13 @@
 
 #include "mstsl/core/sensor_data.hpp"
 #include "mstsl/localize/estimate.hpp"
+#include "mstsl/localize/report.hpp"
 
 namespace mstsl {
 
 /// Anything that is fed a robot's readings in time order and can be asked where the robot is. The two-step
-/// method, the joint one and every baseline are interchangeable here.
+/// method, the joint one and every baseline are interchangeable here. An estimate carries the stamp of the
+/// last scan that was processed; a localizer may pass over scans that tell it nothing new.
 template <typename L>
 concept Localizer = requires(L localizer, const L& asked, const OdometryReading& odometry,
                              const OdometryRestart& restart, const LaserScan& scan,
@@ -20,6 +22,7 @@ concept Localizer = requires(L localizer, const L& asked, const OdometryReading&
   localizer.observe(scan);
   localizer.observe(field);
   { asked.estimate() } -> std::same_as<Estimate>;
+  { asked.report() } -> std::same_as<LocalizerReport>;
 };
 
 /// A Localizer chosen at run time, held by value.
@@ -33,6 +36,7 @@ class AnyLocalizer {
   void observe(const LaserScan& scan) { self_->observe(scan); }
   void observe(const FieldReading& field) { self_->observe(field); }
   Estimate estimate() const { return self_->estimate(); }
+  LocalizerReport report() const { return self_->report(); }
 
  private:
   struct Interface {
@@ -42,6 +46,7 @@ class AnyLocalizer {
     virtual void observe(const LaserScan&) = 0;
     virtual void observe(const FieldReading&) = 0;
     virtual Estimate estimate() const = 0;
+    virtual LocalizerReport report() const = 0;
   };
   template <Localizer L>
   struct Model final : Interface {
@@ -51,6 +56,7 @@ class AnyLocalizer {
     void observe(const LaserScan& scan) override { localizer.observe(scan); }
     void observe(const FieldReading& field) override { localizer.observe(field); }
     Estimate estimate() const override { return localizer.estimate(); }
+    LocalizerReport report() const override { return localizer.report(); }
     L localizer;
   };
   std::unique_ptr<Interface> self_;

@@ -19,7 +19,9 @@ std::string_view to_string(FieldModel model);
 std::optional<FieldModel> field_model_from(std::string_view name);
 
 /// The magnetic field database m^B: on each cell the field in the map frame with its variance, and whether a
-/// fingerprint supports it. Cells without a value hold NaN and support 0.
+/// fingerprint supports it. Cells without a value hold NaN and support 0. The variance is that of what a
+/// later, calibrated reading would show there (R&W Eq. 2.26 plus the noise), so that a consumer adds only its
+/// own sensor's.
 struct FieldMap {
   GridGeometry geometry;
   std::vector<Eigen::Vector3f> mean_uT;

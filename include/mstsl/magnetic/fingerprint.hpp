@@ -8,6 +8,9 @@ namespace mstsl {
 struct Fingerprint {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   Eigen::Vector3d field_uT = Eigen::Vector3d::Zero();
+  double heading_rad =
+      0.0;          ///< yaw of the robot in the map then: it turns a bias of the sensor into the map frame
+  int session = 0;  ///< which of the logs it comes from: one sensor, one bias
 };
 
 /// What a field model says of one place: mean and variance of each component, map frame.
