@@ -1,5 +1,8 @@
 #include "mstsl/magnetic/hyperparameters.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace mstsl {
 
 std::map<std::string, double> to_named(const FieldHyperparameters& h) {
@@ -18,6 +21,25 @@ bool is_valid(const FieldHyperparameters& h) {
   const bool finite = h.mean_uT.allFinite() && h.signal_sd_uT.allFinite() && h.length_scale_m.allFinite() &&
                       h.noise_sd_uT.allFinite();
   return finite && (h.signal_sd_uT > 0).all() && (h.length_scale_m > 0).all() && (h.noise_sd_uT > 0).all();
+}
+
+std::vector<std::vector<int>> components_by_covariance(const FieldHyperparameters& h) {
+  constexpr double kSame = 1e-9;
+  const Eigen::Array3d ratio = h.noise_sd_uT / h.signal_sd_uT;
+  const auto same = [&](int a, int b) {
+    return std::abs(ratio(a) / ratio(b) - 1.0) < kSame &&
+           std::abs(h.length_scale_m(a) / h.length_scale_m(b) - 1.0) < kSame;
+  };
+  std::vector<std::vector<int>> groups;
+  for (int c = 0; c < 3; ++c) {
+    const auto group =
+        std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return same(g.front(), c); });
+    if (group == groups.end())
+      groups.push_back({c});
+    else
+      group->push_back(c);
+  }
+  return groups;
 }
 
 }  // namespace mstsl
