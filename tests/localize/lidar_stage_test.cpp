@@ -15,9 +15,9 @@ class LidarStageTest : public testing::Test {
     return {pose, Eigen::Vector3d(0.04, 0.04, 1e-3).asDiagonal(), probability, 0.0};
   }
 
-  /// Drives straight from `start` in steps of 0.1 m and lets the stage see it.
-  void drive(LidarStage& stage, const Pose2& start, double length_m) {
-    Pose2 pose = start;
+  /// Drives straight from `from` in steps of 0.1 m and lets the stage see it.
+  void drive(LidarStage& stage, const Pose2& from, double length_m) {
+    Pose2 pose = from;
     for (int i = 0; i <= static_cast<int>(length_m / 0.1 + 0.5); ++i) {
       const Pose2 step = i == 0 ? Pose2{} : Pose2{0.1, 0, 0};
       pose = pose * step;
@@ -86,11 +86,11 @@ TEST_F(LidarStageTest, NoAnswerComesBeforeTheLeastDistance) {
 }
 
 TEST_F(LidarStageTest, TwinsOfEqualWeightAreAnsweredOnlyAtTheAnswerDistance) {
-  // Half a turn about the building's middle: the scans differ by the recesses only.
   LidarStage stage(world.maps, {at({8.0, 1.0, 0}, 0.45), at({8.05, 1.0, 0}, 0.45)}, {}, options);
   drive(stage, {8.0, 1.0, 0.0}, options.answer_distance_m - 1.0);
   EXPECT_FALSE(stage.answer());
-  EXPECT_LT(*std::max_element(stage.weights().begin(), stage.weights().end()), options.answer_probability);
+  const std::vector<double> weights = stage.weights();
+  EXPECT_LT(*std::max_element(weights.begin(), weights.end()), options.answer_probability);
 }
 
 TEST_F(LidarStageTest, BlindScansMoveTheHypothesesByOdometryAlone) {
