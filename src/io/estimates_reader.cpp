@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/io/estimates.hpp"
@@ -25,7 +25,8 @@ const json& member(const json& object, const char* key) {
 }
 
 double number(const json& value, const char* key) {
-  if (!value.is_number() || !std::isfinite(value.get<double>())) throw FileProblem("has a '{}' that is no finite number", key);
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    throw FileProblem("has a '{}' that is no finite number", key);
   return value.get<double>();
 }
 
@@ -34,13 +35,15 @@ double number_in(const json& object, const char* key) { return number(member(obj
 double probability_in(const json& object, const char* key) {
   constexpr double kRounding = 1e-9;  // weights that were normalised may miss 0 or 1 by their last digits
   const double value = number_in(object, key);
-  if (value < -kRounding || value > 1.0 + kRounding) throw FileProblem("has a '{}' of {}, not between 0 and 1", key, value);
+  if (value < -kRounding || value > 1.0 + kRounding)
+    throw FileProblem("has a '{}' of {}, not between 0 and 1", key, value);
   return value;
 }
 
 std::vector<double> numbers_in(const json& object, const char* key, std::size_t count) {
   const json& list = member(object, key);
-  if (!list.is_array() || list.size() != count) throw FileProblem("has a '{}' that is no list of {} numbers", key, count);
+  if (!list.is_array() || list.size() != count)
+    throw FileProblem("has a '{}' that is no list of {} numbers", key, count);
   std::vector<double> values;
   for (const json& item : list) values.push_back(number(item, key));
   return values;
@@ -55,7 +58,8 @@ Pose2 pose_in(const json& object, const char* key) {
 
 LocalizationStatus status_in(const json& object) {
   const json& name = member(object, "status");
-  for (const auto status : {LocalizationStatus::kSearching, LocalizationStatus::kLocalized, LocalizationStatus::kLost})
+  for (const auto status :
+       {LocalizationStatus::kSearching, LocalizationStatus::kLocalized, LocalizationStatus::kLost})
     if (name == to_string(status)) return status;
   throw FileProblem("has a 'status' that is not searching, localized or lost");
 }
@@ -72,11 +76,13 @@ Estimate estimate_from(const json& object) {
   e.travelled_m = number_in(object, "travelled_m");
   e.status = status_in(object);
   if (const json& pose = member(object, "pose"); !pose.is_null()) e.map_T_base = pose_in(pose, "pose");
-  e.covariance = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers_in(object, "covariance", 9).data());
+  e.covariance = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(
+      numbers_in(object, "covariance", 9).data());
   e.probability = probability_in(object, "probability");
   const json& hypotheses = member(object, "hypotheses");
   if (!hypotheses.is_array()) throw FileProblem("has 'hypotheses' that are no list");
-  for (const json& h : hypotheses) e.hypotheses.push_back({pose_in(h, "hypotheses"), probability_in(h, "weight")});
+  for (const json& h : hypotheses)
+    e.hypotheses.push_back({pose_in(h, "hypotheses"), probability_in(h, "weight")});
   if (!member(object, "bias_uT").is_null())
     e.bias_uT = Eigen::Map<const Eigen::Vector3d>(numbers_in(object, "bias_uT", 3).data());
   return e;
@@ -129,8 +135,8 @@ Result<EstimatesFile> read_estimates(const std::filesystem::path& file) {
   const Result<std::string> text = read_file(file, kMaxBytes);
   std::error_code ignored;
   if (!text && std::filesystem::exists(part_name(file), ignored))
-    return Error(fmt::format("{}; an interrupted run left {}, which can be read in its place", text.error().message(),
-                             part_name(file).string()));
+    return Error(fmt::format("{}; an interrupted run left {}, which can be read in its place",
+                             text.error().message(), part_name(file).string()));
   if (!text) return text.error();
   return guarded(file, [&] { return parse(*text); });
 }

@@ -1,12 +1,12 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <type_traits>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "mstsl/io/estimates.hpp"
 
@@ -21,8 +21,9 @@ bool all_finite(const Estimate& e) {
   const bool hypotheses = std::all_of(e.hypotheses.begin(), e.hypotheses.end(), [](const Hypothesis& h) {
     return h.map_T_base.is_finite() && std::isfinite(h.weight);
   });
-  return hypotheses && std::isfinite(e.travelled_m) && std::isfinite(e.probability) && e.covariance.allFinite() &&
-         (!e.map_T_base || e.map_T_base->is_finite()) && (!e.bias_uT || e.bias_uT->allFinite());
+  return hypotheses && std::isfinite(e.travelled_m) && std::isfinite(e.probability) &&
+         e.covariance.allFinite() && (!e.map_T_base || e.map_T_base->is_finite()) &&
+         (!e.bias_uT || e.bias_uT->allFinite());
 }
 
 template <typename Range>
@@ -39,7 +40,8 @@ std::string fields(const Pose2& pose) {
 std::string hypotheses(const std::vector<Hypothesis>& all) {
   std::string text;
   for (std::size_t i = 0; i < std::min(all.size(), kMaxHypotheses); ++i)
-    text += fmt::format(R"({}{{{}, "weight": {}}})", i == 0 ? "" : ", ", fields(all[i].map_T_base), to_text(all[i].weight));
+    text += fmt::format(R"({}{{{}, "weight": {}}})", i == 0 ? "" : ", ", fields(all[i].map_T_base),
+                        to_text(all[i].weight));
   return "[" + text + "]";
 }
 
@@ -49,7 +51,8 @@ std::array<double, 9> row_major(const Eigen::Matrix3d& m) {
 
 std::string line_of(const Estimate& e) {
   const std::string pose = e.map_T_base ? "{" + fields(*e.map_T_base) + "}" : "null";
-  const std::string bias = e.bias_uT ? list(std::array{e.bias_uT->x(), e.bias_uT->y(), e.bias_uT->z()}) : "null";
+  const std::string bias =
+      e.bias_uT ? list(std::array{e.bias_uT->x(), e.bias_uT->y(), e.bias_uT->z()}) : "null";
   return fmt::format(
       R"({{"t": {}, "travelled_m": {}, "status": "{}", "pose": {}, "covariance": {}, "probability": {}, "hypotheses": {}, "bias_uT": {}}})",
       to_text(e.stamp), to_text(e.travelled_m), to_string(e.status), pose, list(row_major(e.covariance)),
@@ -68,8 +71,9 @@ std::string line_of(const Summary& summary) {
 
 Result<std::string> to_json_line(const Estimate& estimate) {
   if (!all_finite(estimate))
-    return Error(fmt::format("the estimate at {} s holds a number that is not finite (this is a bug, please report it)",
-                             estimate.stamp.seconds()));
+    return Error(fmt::format(
+        "the estimate at {} s holds a number that is not finite (this is a bug, please report it)",
+        estimate.stamp.seconds()));
   return line_of(estimate);
 }
 

@@ -1,12 +1,12 @@
 #include "text_numbers.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <system_error>
+
+#include <fmt/format.h>
 
 namespace mstsl::io {
 namespace {
@@ -29,8 +29,10 @@ std::int64_t nanoseconds_of(std::string_view digits) {
 std::string to_text(double value) { return fmt::format("{}", value + 0.0); }
 
 std::string to_text(Stamp stamp) {
-  const auto magnitude = stamp.ns < 0 ? 0 - static_cast<std::uint64_t>(stamp.ns) : static_cast<std::uint64_t>(stamp.ns);
-  std::string text = fmt::format("{}{}.{:09}", stamp.ns < 0 ? "-" : "", magnitude / kNanoseconds, magnitude % kNanoseconds);
+  const auto magnitude =
+      stamp.ns < 0 ? 0 - static_cast<std::uint64_t>(stamp.ns) : static_cast<std::uint64_t>(stamp.ns);
+  std::string text =
+      fmt::format("{}{}.{:09}", stamp.ns < 0 ? "-" : "", magnitude / kNanoseconds, magnitude % kNanoseconds);
   const std::size_t last = text.find_last_not_of('0');
   text.resize(std::max(last, text.find('.') + 1) + 1);
   return text;

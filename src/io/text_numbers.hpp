@@ -12,7 +12,8 @@ namespace mstsl::io {
 /// The shortest decimal text that reads back as the same double; never "-0".
 std::string to_text(double value);
 
-/// Seconds with all nine decimals that are not trailing zeros ("12.5", "12.0"): no digit is lost, as a double would.
+/// Seconds with all nine decimals that are not trailing zeros ("12.5", "12.0"): no digit is lost, as a double
+/// would.
 std::string to_text(Stamp stamp);
 
 /// The finite number that the whole text is; nothing else.

@@ -1,8 +1,8 @@
 #include "mstsl/io/truth.hpp"
 
-#include <fmt/format.h>
-
 #include <string>
+
+#include <fmt/format.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/io/atomic_file.hpp"
@@ -19,12 +19,14 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 32;
 
 PoseReading parse_row(std::string_view line, std::size_t number) {
   const std::vector<std::string_view> fields = split(line, ',');
-  if (fields.size() != 4) throw FileProblem("line {} has {} fields, not the four of {}", number, fields.size(), kHeader);
+  if (fields.size() != 4)
+    throw FileProblem("line {} has {} fields, not the four of {}", number, fields.size(), kHeader);
   const auto stamp = parse_stamp(fields[0]);
   const auto x = parse_number(fields[1]);
   const auto y = parse_number(fields[2]);
   const auto yaw = parse_number(fields[3]);
-  if (!stamp || !x || !y || !yaw) throw FileProblem("line {} holds something other than four finite numbers", number);
+  if (!stamp || !x || !y || !yaw)
+    throw FileProblem("line {} holds something other than four finite numbers", number);
   return {*stamp, Pose2::from({*x, *y}, *yaw)};
 }
 
@@ -50,7 +52,9 @@ Result<void> write_truth(const std::vector<PoseReading>& poses, const std::files
   text += '\n';
   for (const PoseReading& pose : poses) {
     const Pose2& p = pose.map_T_base;
-    if (!p.is_finite()) return Error(fmt::format("cannot write {}: the pose at {} s is not finite", file.string(), pose.stamp.seconds()));
+    if (!p.is_finite())
+      return Error(fmt::format("cannot write {}: the pose at {} s is not finite", file.string(),
+                               pose.stamp.seconds()));
     text += fmt::format("{},{},{},{}\n", to_text(pose.stamp), to_text(p.x), to_text(p.y), to_text(p.yaw));
   }
   return write_file(file, text);

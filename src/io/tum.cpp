@@ -1,11 +1,11 @@
 #include "mstsl/io/tum.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "mstsl/io/file_bytes.hpp"
 
@@ -30,7 +30,8 @@ PoseReading parse_row(const std::vector<std::string_view>& fields, std::size_t n
   }
   if (!good) throw FileProblem("line {} holds something other than eight finite numbers", number);
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (!(std::abs(q.norm() - 1.0) < 0.01)) throw FileProblem("line {} has a quaternion of length {}, not 1", number, q.norm());
+  if (!(std::abs(q.norm() - 1.0) < 0.01))
+    throw FileProblem("line {} has a quaternion of length {}, not 1", number, q.norm());
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() = q.normalized().toRotationMatrix();
   motion.translation() << v[0], v[1], v[2];
@@ -58,7 +59,8 @@ Result<TumWriter> TumWriter::open(const std::filesystem::path& file) {
 Result<void> TumWriter::write(const PoseReading& pose) {
   const Pose2& p = pose.map_T_base;
   if (!p.is_finite())
-    return Error(fmt::format("cannot write {}: the pose at {} s is not finite", file_.target().string(), pose.stamp.seconds()));
+    return Error(fmt::format("cannot write {}: the pose at {} s is not finite", file_.target().string(),
+                             pose.stamp.seconds()));
   const Result<void> written =
       file_.write(fmt::format("{} {} {} 0 0 0 {} {}\n", to_text(pose.stamp), to_text(p.x), to_text(p.y),
                               to_text(std::sin(p.yaw / 2.0)), to_text(std::cos(p.yaw / 2.0))));

@@ -1,14 +1,15 @@
 #include "mstsl/io/estimates.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "mstsl/core/random.hpp"
 #include "mstsl/io/file_bytes.hpp"
+
 #include "mutations.hpp"
 #include "other_programs.hpp"
 #include "test_support.hpp"
@@ -20,7 +21,9 @@ namespace fs = std::filesystem;
 using test::must;
 
 Estimate sample(Random& random, std::int64_t ns) {
-  const auto pose = [&] { return Pose2{random.normal(0, 50), random.normal(0, 1e-7), random.uniform(-3, 3)}; };
+  const auto pose = [&] {
+    return Pose2{random.normal(0, 50), random.normal(0, 1e-7), random.uniform(-3, 3)};
+  };
   Estimate e;
   e.stamp = {ns};
   e.travelled_m = random.uniform(0, 100);
@@ -40,7 +43,11 @@ std::vector<Estimate> samples() {
   return all;
 }
 
-const Summary kSummary{{"scans", std::int64_t{50}}, {"localized", true}, {"cld_m", 3.25}, {"method", "two-step"}, {"error_m", nullptr}};
+const Summary kSummary{{"scans", std::int64_t{50}},
+                       {"localized", true},
+                       {"cld_m", 3.25},
+                       {"method", "two-step"},
+                       {"error_m", nullptr}};
 
 fs::path write(const test::TemporaryFolder& folder, const std::vector<Estimate>& estimates) {
   const fs::path file = folder.path() / "estimates.jsonl";
@@ -88,10 +95,11 @@ TEST(Estimates, AreJsonLinesAsTheFormatIsFixed) {
   e.covariance << 1, 2, 3, 4, 5, 6, 7, 8, 9;
   e.probability = 1.0 / 3.0;
   e.hypotheses = {{{1, 2, 3}, 0.25}};
-  EXPECT_EQ(must(to_json_line(e)),
-            R"({"t": 1700000000.123456789, "travelled_m": 1e-07, "status": "localized", "pose": {"x": 1, "y": 0, "yaw": 0.1}, )"
-            R"("covariance": [1, 2, 3, 4, 5, 6, 7, 8, 9], "probability": 0.3333333333333333, )"
-            R"("hypotheses": [{"x": 1, "y": 2, "yaw": 3, "weight": 0.25}], "bias_uT": null})");
+  EXPECT_EQ(
+      must(to_json_line(e)),
+      R"({"t": 1700000000.123456789, "travelled_m": 1e-07, "status": "localized", "pose": {"x": 1, "y": 0, "yaw": 0.1}, )"
+      R"("covariance": [1, 2, 3, 4, 5, 6, 7, 8, 9], "probability": 0.3333333333333333, )"
+      R"("hypotheses": [{"x": 1, "y": 2, "yaw": 3, "weight": 0.25}], "bias_uT": null})");
 }
 
 TEST(Estimates, KeepTheTwentyBestHypothesesOfMore) {
@@ -144,13 +152,15 @@ TEST(Estimates, NameTheLineAndTheKeyThatIsWrong) {
   EXPECT_NE(changed("1.5", "\"now\"").find("'t' that is no finite number"), std::string::npos);
   EXPECT_NE(changed("searching", "sleeping").find("'status'"), std::string::npos);
   EXPECT_NE(changed("\"pose\": null", "\"pose\": {\"x\": 1}").find("has no 'y'"), std::string::npos);
-  EXPECT_NE(changed("\"pose\": null", "\"pose\": [1, 2, 3]").find("no object with x, y, yaw"), std::string::npos);
+  EXPECT_NE(changed("\"pose\": null", "\"pose\": [1, 2, 3]").find("no object with x, y, yaw"),
+            std::string::npos);
   EXPECT_NE(changed("[1,0,0,", "[1,").find("no list of 9 numbers"), std::string::npos);
   EXPECT_NE(changed("0.5", "1.5").find("not between 0 and 1"), std::string::npos);
   EXPECT_NE(changed("\"hypotheses\": []", "\"hypotheses\": [7]").find("'hypotheses'"), std::string::npos);
   EXPECT_NE(changed("null}", "[1, 2]}").find("no list of 3 numbers"), std::string::npos);
   EXPECT_NE(changed("{", "").find("line 2 is no JSON object"), std::string::npos);
-  EXPECT_NE(error_of("{\"summary\": {}}\n" + kLine + "\n").find("line 2 comes after the summary"), std::string::npos);
+  EXPECT_NE(error_of("{\"summary\": {}}\n" + kLine + "\n").find("line 2 comes after the summary"),
+            std::string::npos);
   EXPECT_NE(error_of("{\"summary\": 3}\n").find("no object"), std::string::npos);
   EXPECT_NE(error_of("\x1f\x8b\n").find("line 1 is no JSON"), std::string::npos);
 }
@@ -159,7 +169,8 @@ TEST(Estimates, AnswerToEveryDamage) {
   const test::TemporaryFolder folder;
   const std::string good = must(read_file(write(folder, samples()), 1 << 20)).substr(0, 3000) + "\n" + kLine;
   int bad = 0;
-  test::for_each_damage(good, 400, Random(2), [&](const std::string& text) { bad += read_text(text) ? 0 : 1; });
+  test::for_each_damage(good, 400, Random(2),
+                        [&](const std::string& text) { bad += read_text(text) ? 0 : 1; });
   EXPECT_GT(bad, 100);
   EXPECT_FALSE(read_text(std::string(100'000, '[') + "\n"));
 }

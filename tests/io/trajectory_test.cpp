@@ -1,13 +1,14 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/random.hpp"
 #include "mstsl/io/file_bytes.hpp"
 #include "mstsl/io/truth.hpp"
 #include "mstsl/io/tum.hpp"
+
 #include "mutations.hpp"
 #include "test_support.hpp"
 
@@ -68,10 +69,14 @@ TEST(Truth, NamesTheLineThatIsWrong) {
   EXPECT_NE(error_of(read_truth, "").find("line 1"), std::string::npos);
   EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n").find("no row"), std::string::npos);
   EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n1,2,3\n").find("line 2 has 3 fields"), std::string::npos);
-  EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n1,2,3,nan\n").find("line 2 holds something other"), std::string::npos);
-  EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n1e30,2,3,0\n").find("line 2 holds something other"), std::string::npos);
-  EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n1,2,3,0x\n").find("line 2 holds something other"), std::string::npos);
-  EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n2,0,0,0\n1,0,0,0\n").find("line 3 goes back in time"), std::string::npos);
+  EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n1,2,3,nan\n").find("line 2 holds something other"),
+            std::string::npos);
+  EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n1e30,2,3,0\n").find("line 2 holds something other"),
+            std::string::npos);
+  EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n1,2,3,0x\n").find("line 2 holds something other"),
+            std::string::npos);
+  EXPECT_NE(error_of(read_truth, "t,x,y,yaw\n2,0,0,0\n1,0,0,0\n").find("line 3 goes back in time"),
+            std::string::npos);
   EXPECT_FALSE(write_truth({{Stamp{}, Pose2{NAN, 0, 0}}}, "/nowhere/truth.csv"));
 }
 
@@ -93,7 +98,8 @@ TEST(Tum, ReadsBackWhatItWrote) {
 TEST(Tum, NamesTheLineThatIsWrong) {
   EXPECT_EQ(error_of(read_tum, "# a comment\n\n1.0  2 3 0 0 0 0 1\n"), "no error");
   EXPECT_NE(error_of(read_tum, "1 2 3\n").find("line 1 has 3 fields"), std::string::npos);
-  EXPECT_NE(error_of(read_tum, "#\n1 2 3 0 0 0 0 0\n").find("line 2 has a quaternion of length 0"), std::string::npos);
+  EXPECT_NE(error_of(read_tum, "#\n1 2 3 0 0 0 0 0\n").find("line 2 has a quaternion of length 0"),
+            std::string::npos);
   EXPECT_NE(error_of(read_tum, "1 2 3 inf 0 0 0 1\n").find("eight finite numbers"), std::string::npos);
 }
 

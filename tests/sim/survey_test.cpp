@@ -1,0 +1,110 @@
+#include "mstsl/sim/survey.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mstsl/core/angles.hpp"
+#include "mstsl/sim/trajectory.hpp"
+#include "test_support.hpp"
+
+namespace mstsl::sim {
+namespace {
+
+using Eigen::Vector2d;
+using test::must;
+
+double total(const std::vector<Route>& routes) {
+  double sum = 0.0;
+  for (const Route& route : routes) sum += length(route);
+  return sum;
+}
+
+/// One sample for each 5 cm of true travel, as the mapping counts them.
+double fingerprints(const std::vector<Route>& routes) {
+  double count = 0.0;
+  for (const Route& route : routes) count += std::floor(length(follow(route, {}, {}, Random(1))) / 0.05);
+  return count;
+}
+
+TEST(Survey, ReachesThePapersNumbersOfFingerprints) {
+  for (const auto& [name, wanted] : {std::pair("corridor", std::size_t{67238}), std::pair("carpark", std::size_t{118688})}) {
+    SurveyOptions options;
+    options.fingerprints = wanted;
+    const auto routes = must(survey_routes(must(make_world(name, {}, Random(1))), options));
+    EXPECT_NEAR(total(routes), 0.05 * static_cast<double>(wanted), 0.01) << name;
+    EXPECT_NEAR(fingerprints(routes), static_cast<double>(wanted), 0.03 * static_cast<double>(wanted)) << name;
+  }
+}
+
+TEST(Survey, DrivesEachLaneBothWays) {
+  for (const std::string& name : world_names()) {
+    const World world = must(make_world(name, {}, Random(1)));
+    const auto routes = must(survey_routes(world, {}));
+    std::map<int, double> metres;  // by heading in steps of 90 deg
+    for (const Route& route : routes)
+      for (const Segment& leg : polyline(route.waypoints_m, false)) {
+        const double quarters = std::atan2(leg.b.y() - leg.a.y(), leg.b.x() - leg.a.x()) / (kPi / 2);
+        if (std::abs(quarters - std::round(quarters)) < 1e-3) metres[static_cast<int>(std::lround(quarters) + 4) % 4] += length(leg);
+      }
+    EXPECT_NEAR(metres[0] / metres[2], 1.0, 0.1) << name;
+    EXPECT_NEAR(metres[1] / metres[3], 1.0, 0.1) << name;
+    EXPECT_GT(metres[0] + metres[1] + metres[2] + metres[3], 0.8 * total(routes)) << name;
+  }
+}
+
+TEST(Survey, PassesEveryLane) {
+  const World world = must(make_world("office-wing", {}, Random(3)));
+  const auto routes = must(survey_routes(world, {}));
+  for (const Lane& lane : world.lanes())
+    for (const double t : {0.1, 0.5, 0.9}) {
+      double away = 1e9;
+      for (const Route& route : routes)
+        for (const Segment& leg : polyline(route.waypoints_m, false)) away = std::min(away, distance(point_along(lane.center, t), leg));
+      EXPECT_LT(away, 0.3);
+    }
+}
+
+TEST(Survey, KeepsClearOfTheWalls) {
+  for (const std::string& name : world_names()) {
+    const World world = must(make_world(name, {}, Random(1)));
+    for (const Route& route : must(survey_routes(world, {})))
+      for (const Segment& leg : polyline(route.waypoints_m, false))
+        for (double t = 0; t <= 1; t += 0.02) ASSERT_GT(world.surfaces().clearance(point_along(leg, t), 1.0), 0.2) << name;
+  }
+}
+
+TEST(Survey, GrowsWithPassesAndShrinksWithSpacing) {
+  const World world = must(make_world("corridor", {}, Random(1)));
+  SurveyOptions twice, sparse;
+  twice.passes = 2;
+  sparse.lane_spacing_m = 2.0;
+  const double once = total(must(survey_routes(world, {})));
+  EXPECT_NEAR(total(must(survey_routes(world, twice))) / once, 2.0, 0.05);
+  EXPECT_LT(total(must(survey_routes(world, sparse))), 0.5 * once);
+}
+
+TEST(Survey, IsCutIntoLogs) {
+  const World world = must(make_world("carpark", {}, Random(1)));
+  SurveyOptions options;
+  options.log_length_m = 500;
+  const auto routes = must(survey_routes(world, options));
+  EXPECT_GT(routes.size(), 4u);
+  for (const Route& route : routes) EXPECT_LT(length(route), 500 + 3 * 80);
+}
+
+TEST(Survey, RefusesImpossibleWishes) {
+  const World world = must(make_world("corridor", {}, Random(1)));
+  SurveyOptions few, none;
+  few.fingerprints = 100;
+  const auto routes = survey_routes(world, few);
+  ASSERT_FALSE(routes);
+  EXPECT_NE(routes.error().message().find("ask for more"), std::string::npos);
+  none.lane_spacing_m = 0.0;
+  EXPECT_FALSE(survey_routes(world, none));
+}
+
+}  // namespace
+}  // namespace mstsl::sim
