@@ -1,7 +1,155 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "mstsl/io/field_map_file.hpp"
+#include "mstsl/io/map_server.hpp"
+#include "mstsl/magnetic/field_map_builder.hpp"
+
+#include "interrupt.hpp"
+#include "map_report.hpp"
+#include "progress.hpp"
 #include "session.hpp"
+#include "survey_reader.hpp"
+#include "topic_options.hpp"
 
 namespace mstsl::app {
+namespace {
 
-void add_map(CLI::App&, Session&) {}
+namespace fs = std::filesystem;
+
+struct Wish {
+  fs::path map;
+  fs::path output;
+  std::vector<fs::path> logs;
+  io::PlayOptions play;
+  std::string initial_pose;
+  std::string model = "gpr";
+  std::string quality = "fast";
+  std::string bias = "auto";
+  FieldMapOptions build;
+};
+
+FieldMapOptions options_of(const Session& session, const Wish& wish) {
+  FieldMapOptions options = wish.build;
+  options.model = *field_model_from(wish.model);  // CLI11 lets only known names through
+  options.quality = wish.quality == "exact" ? RegressionQuality::kExact : RegressionQuality::kFast;
+  options.analysis.bias_removal = wish.bias == "keep"     ? BiasRemoval::kNever
+                                  : wish.bias == "remove" ? BiasRemoval::kAlways
+                                                          : BiasRemoval::kWhenSignificant;
+  options.analysis.threads = options.threads = session.threads;
+  return options;
+}
+
+/// Where the map comes from, without times and folders: the same input gives the same file.
+std::vector<std::string> provenance(const Wish& wish) {
+  std::vector<std::string> lines{
+      fmt::format("mstsl {} map magnetic --model {} --quality {} --bias {} --resolution {}", MSTSL_VERSION,
+                  wish.model, wish.quality, wish.bias, wish.build.resolution_m)};
+  lines.push_back("map " + wish.map.filename().string());
+  for (const fs::path& log : wish.logs) lines.push_back("log " + log.filename().string());
+  return lines;
+}
+
+void warn(const Session& session, const std::vector<std::string>& sentences) {
+  if (session.quiet) return;
+  for (const std::string& sentence : sentences) fmt::print(stderr, "mstsl: warning: {}\n", sentence);
+}
+
+Result<FieldMap> build(const Session& session, const SurveyAnalysis& analysis, const OccupancyGrid& area,
+                       FieldMapOptions options) {
+  Progress progress("field map", session.quiet);
+  options.progress = [&](double share) { progress.show(share); };
+  return build_field_map(analysis, &area, options);
+}
+
+Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
+  if (!wish.initial_pose.empty())
+    return Error("--initial-pose is not offered yet; give --pose-topic with the poses of the survey");
+  const Result<io::MapFile> occupancy = io::read_map_file(wish.map);
+  if (!occupancy) return occupancy.error();
+  warn(session, occupancy->warnings);
+  const Result<SurveyLogs> logs = read_survey(session, wish.logs, wish.play);
+  if (!logs) return logs.error();
+  warn(session, logs->warnings);
+  const std::string survey = fmt::format("the survey in {}{}", wish.logs.front().string(),
+                                         wish.logs.size() > 1 ? " and others" : "");
+  const FieldMapOptions options = options_of(session, wish);
+  const auto analysis = analyse_survey(logs->fingerprints, options.model, options.analysis);
+  if (!analysis) return analysis.error().within(survey);
+  warn(session, analysis->warnings);
+  Result<FieldMap> field = build(session, *analysis, occupancy->grid, options);
+  if (!field) return field.error().within(survey);
+  if (interrupted()) return Error("interrupted; nothing was written");
+  field->height_m = logs->magnetometer_height_m;
+  field->provenance = provenance(wish);
+  if (const auto written = io::write_field_map(*field, wish.output); !written) return written.error();
+  if (session.json)
+    fmt::print("{}", map_report_json(*logs, *analysis, *field));
+  else if (!session.quiet)
+    fmt::print("{}written to {}\n", map_report_text(*logs, *analysis, *field), wish.output.string());
+  return Exit::kDone;
+}
+
+void add_map_magnetic(CLI::App& map, Session& session) {
+  auto wish = std::make_shared<Wish>();
+  wish->play.topics.scan.clear();
+  wish->play.topics.odometry.clear();
+  wish->play.topics.imu.clear();
+  CLI::App* command = map.add_subcommand("magnetic", "Make a magnetic field map from the logs of a survey");
+  command->add_option("--map", wish->map, "Occupancy map: a map_server yaml")->required();
+  auto* poses = command->add_option_group("poses", "Where the robot was during the survey");
+  poses->add_option("--pose-topic", wish->play.topics.pose, "Topic with the robot's poses in the map");
+  poses->add_option("--initial-pose", wish->initial_pose,
+                    "X,Y,YAW (m, rad) at the start of each log; not offered yet");
+  poses->require_option(1);
+  command->add_option("--model", wish->model, "How the field between the fingerprints is made")
+      ->check(CLI::IsMember({"gpr", "bilinear", "fingerprint"}))
+      ->capture_default_str();
+  command
+      ->add_option("--quality", wish->quality,
+                   "Of the regression: fast (mean within 4 % of the noise) or exact (1 %)")
+      ->check(CLI::IsMember({"fast", "exact"}))
+      ->capture_default_str();
+  command
+      ->add_option("--bias", wish->bias,
+                   "A magnetometer bias seen between opposite passes: remove where significant (auto), "
+                   "always, or keep")
+      ->check(CLI::IsMember({"auto", "remove", "keep"}))
+      ->capture_default_str();
+  command->add_option("--resolution", wish->build.resolution_m, "Side of a cell, m")
+      ->check(CLI::Range(0.005, 10.0))
+      ->capture_default_str();
+  command->add_option("--field-topic", wish->play.topics.magnetic_field, "MagneticField messages")
+      ->capture_default_str()
+      ->group("Names in the log");
+  command
+      ->add_option("--tf-topic", wish->play.topics.transforms_static,
+                   "TFMessage messages with the sensors' mounting")
+      ->capture_default_str()
+      ->group("Names in the log");
+  command->add_option("--base-frame", wish->play.base_frame, "Frame of the robot's base")
+      ->capture_default_str()
+      ->group("Names in the log");
+  command->add_option("-o,--output", wish->output, "Field map, NetCDF")->required();
+  command->add_option("logs", wish->logs, "MCAP, rosbag2 folder or ROS 1 bag; each is a session of its own")
+      ->required();
+  add_common_options(*command, session);
+  command->callback(
+      [wish, &session] { session.work = [wish, &session] { return map_magnetic(session, *wish); }; });
+}
+
+}  // namespace
+
+void add_map(CLI::App& app, Session& session) {
+  CLI::App* map = app.add_subcommand("map", "Make maps from the logs of a survey");
+  map->require_subcommand(1);
+  add_map_magnetic(*map, session);
+}
 
 }  // namespace mstsl::app

@@ -3,17 +3,18 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <regex>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "mstsl/io/atomic_file.hpp"
 #include "mstsl/io/map_server.hpp"
 #include "mstsl/io/recording_writer.hpp"
+#include "mstsl/io/truth.hpp"
 
 namespace mstsl::datasets {
 namespace {
@@ -73,14 +74,11 @@ Result<void> write_survey(const Log& log, const fs::path& folder, std::size_t nu
 }
 
 Result<void> write_run(const Log& log, const fs::path& folder, std::size_t number) {
-  std::string rows = "t,x,y,yaw\n";
-  const auto add_row = [&](const PoseReading& pose) {
-    fmt::format_to(std::back_inserter(rows), "{}.{:09},{},{},{}\n", pose.stamp.ns / 1'000'000'000,
-                   pose.stamp.ns % 1'000'000'000, pose.map_T_base.x, pose.map_T_base.y, pose.map_T_base.yaw);
-  };
-  if (const Result<void> written = write_log(log, folder / file_name("run", number, "mcap"), "", add_row); !written)
+  std::vector<PoseReading> truth;
+  const auto keep = [&](const PoseReading& pose) { truth.push_back(pose); };
+  if (const Result<void> written = write_log(log, folder / file_name("run", number, "mcap"), "", keep); !written)
     return written;
-  return io::write_file(folder / file_name("truth", number, "csv"), rows);
+  return io::write_truth(truth, folder / file_name("truth", number, "csv"));
 }
 
 }  // namespace

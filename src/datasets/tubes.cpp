@@ -67,6 +67,20 @@ std::vector<sim::Lane> lanes_along(const Path& path_m, double width_m) {
   return lanes;
 }
 
+/// The walls that bound the tubes: all outlines but the raster's own rim.
+std::vector<sim::Segment> walls_of(const OccupancyGrid& raster) {
+  const double width_m = raster.geometry().columns * raster.geometry().resolution_m;
+  std::vector<sim::Segment> walls;
+  for (const Polygon& outline : occupied_outlines(raster)) {
+    Eigen::AlignedBox2d bounds;
+    for (const Eigen::Vector2d& corner : outline) bounds.extend(corner);
+    const bool is_rim = bounds.sizes().x() > width_m - 2.0 * raster.geometry().resolution_m;
+    if (is_rim) continue;
+    for (const sim::Segment& wall : sim::polyline(outline, true)) walls.push_back(wall);
+  }
+  return walls;
+}
+
 }  // namespace
 
 Result<OccupancyGrid> tubes_around(std::span<const Path> paths_m, const TubeOptions& options) {
@@ -115,8 +129,7 @@ Result<sim::WorldPlan> tube_plan(std::span<const Path> paths_m, const TubeOption
   const GridGeometry& geometry = raster->geometry();
   plan.footprint_m.extend(geometry.map_T_grid.position());
   plan.footprint_m.extend(geometry.to_map({geometry.columns, geometry.rows}));
-  for (const Polygon& outline : occupied_outlines(*raster))
-    for (const sim::Segment& wall : sim::polyline(outline, true)) plan.walls.push_back(wall);
+  plan.walls = walls_of(*raster);
   for (const Path& path_m : paths_m) {
     if (path_m.size() < 2) continue;
     plan.lanes = lanes_along(path_m, options.width_m);

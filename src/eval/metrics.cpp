@@ -23,7 +23,8 @@ JudgedInitialisation judge_initialisation(const std::vector<Hypothesis>& hypothe
   return judged;
 }
 
-void judge_estimate(const Estimate& estimate, const Pose2& truth, const Criteria& criteria, RunEvaluation& run) {
+void judge_estimate(const Estimate& estimate, const Pose2& truth, const Criteria& criteria,
+                    RunEvaluation& run) {
   if (!run.initialisation && !estimate.hypotheses.empty())
     run.initialisation = judge_initialisation(estimate.hypotheses, truth, criteria);
   run.last.reset();
@@ -44,7 +45,8 @@ bool RunEvaluation::succeeded() const {
   return first() != nullptr && first()->right && correct_distance_m.has_value();
 }
 
-RunEvaluation evaluate_run(const std::vector<Estimate>& estimates, const Trajectory& truth, const Criteria& criteria) {
+RunEvaluation evaluate_run(const std::vector<Estimate>& estimates, const Trajectory& truth,
+                           const Criteria& criteria) {
   RunEvaluation run;
   LocalizationStatus last = LocalizationStatus::kSearching;
   for (const Estimate& estimate : estimates) {

@@ -74,7 +74,9 @@ Result<Setting> prepare(const PaperProtocolOptions& options, const Random& rando
   auto maps = make_maps(*world, *fingerprints, options, teller);
   if (!maps) return maps.error();
   Setting setting{sim::on_another_day(*world, options.moved_fraction, random.fork(kDay)),
-                  std::move(maps).value(), {}, fingerprints->size()};
+                  std::move(maps).value(),
+                  {},
+                  fingerprints->size()};
   for (int i = 0; i < options.waypoints; ++i) {
     const auto waypoint = sim::random_waypoint(setting.today, options.run,
                                                random.fork(kWaypoint).fork(static_cast<std::uint64_t>(i)));
@@ -85,24 +87,27 @@ Result<Setting> prepare(const PaperProtocolOptions& options, const Random& rando
 }
 
 /// The first scan of a drive, as the robot sees it before it is told to turn.
-LaserScan first_scan(const sim::World& world, const sim::RobotOptions& robot, const sim::Trajectory& trajectory,
-                     const Random& random) {
+LaserScan first_scan(const sim::World& world, const sim::RobotOptions& robot,
+                     const sim::Trajectory& trajectory, const Random& random) {
   sim::Trajectory beginning = trajectory;
   beginning.poses.resize(std::min<std::size_t>(beginning.poses.size(), 10));
   LaserScan first;
   bool seen = false;
-  sim::drive(world, robot, beginning, random, {[&](const SensorEvent& event) {
-               const auto* scan = std::get_if<LaserScan>(&event);
-               if (scan == nullptr || seen) return;
-               first = *scan;
-               seen = true;
-             }, {}});
+  sim::drive(world, robot, beginning, random,
+             {[&](const SensorEvent& event) {
+                const auto* scan = std::get_if<LaserScan>(&event);
+                if (scan == nullptr || seen) return;
+                first = *scan;
+                seen = true;
+              },
+              {}});
   return first;
 }
 
 /// One start: the robot aligns itself, drives, and every model's localizer hears the same events.
 Result<std::vector<ProtocolRun>> run_once(const Setting& setting, const PaperProtocolOptions& options,
-                                          const TwoStepOptions& two_step, const Random& random, int waypoint, int run) {
+                                          const TwoStepOptions& two_step, const Random& random, int waypoint,
+                                          int run) {
   const auto route = sim::route_from(setting.today, setting.waypoints_m[static_cast<std::size_t>(waypoint)],
                                      options.run, random.fork(kRoute));
   if (!route) return route.error();
@@ -131,7 +136,8 @@ Result<std::vector<ProtocolRun>> run_once(const Setting& setting, const PaperPro
       std::abs(std::remainder(aligned_yaw - setting.today.plan().axis_yaw_rad, radians(90.0)));
   std::vector<ProtocolRun> runs;
   for (std::size_t m = 0; m < setting.maps.size(); ++m)
-    runs.push_back({waypoint, run, options.models[m], off_rad, evaluate_run(estimates[m], truth, options.criteria)});
+    runs.push_back(
+        {waypoint, run, options.models[m], off_rad, evaluate_run(estimates[m], truth, options.criteria)});
   return runs;
 }
 
@@ -158,7 +164,7 @@ Result<ProtocolResult> run_paper_protocol(const PaperProtocolOptions& options) {
   });
   if (teller.stopped()) return interrupted();
 
-  ProtocolResult result{options.world, options.seed, two_step.initialise.distinct.count,
+  ProtocolResult result{options.world,         options.seed,   two_step.initialise.distinct.count,
                         setting->fingerprints, options.models, {}};
   for (auto& start : done) {
     if (!*start) return start->error();

@@ -44,19 +44,21 @@ std::vector<Fingerprint> collect(const sim::World& world, const sim::Route& rout
   robot.lidar.rate_hz = 0.0;  // nobody looks at its scans
   FingerprintCollector collector(robot.rig, {.spacing_m = options.survey.fingerprint_spacing_m});
   WanderingError error(options.position_sigma_m, options.position_error_length_m, random.fork(kPositions));
-  const sim::DriveSinks sinks{[&](const SensorEvent& event) {
-                                if (const auto* field = std::get_if<FieldReading>(&event)) collector.observe(*field);
-                              },
-                              [&](const PoseReading& truth) {
-                                collector.observe(PoseReading{truth.stamp, error.applied_to(truth.map_T_base)});
-                              }};
+  const sim::DriveSinks sinks{
+      [&](const SensorEvent& event) {
+        if (const auto* field = std::get_if<FieldReading>(&event)) collector.observe(*field);
+      },
+      [&](const PoseReading& truth) {
+        collector.observe(PoseReading{truth.stamp, error.applied_to(truth.map_T_base)});
+      }};
   sim::drive(world, robot, route, Stamp{}, random.fork(kDrive), sinks);
   return collector.finish();
 }
 
 }  // namespace
 
-Result<std::vector<Fingerprint>> simulate_survey(const sim::World& world, const SimulatedSurveyOptions& options,
+Result<std::vector<Fingerprint>> simulate_survey(const sim::World& world,
+                                                 const SimulatedSurveyOptions& options,
                                                  const Random& random) {
   const Result<std::vector<sim::Route>> routes = sim::survey_routes(world, options.survey);
   if (!routes) return routes.error();

@@ -43,8 +43,13 @@ Spread spread_of(const std::vector<double>& values) {
   double squares = 0.0;
   for (const double value : sorted) squares += (value - mean) * (value - mean);
   const double sd = sorted.size() > 1 ? std::sqrt(squares / (n - 1)) : 0.0;
-  return {sorted.size(), mean,          sd, sorted.front(), quantile_of_sorted(sorted, 0.5),
-          quantile_of_sorted(sorted, 0.9), sorted.back()};
+  return {sorted.size(),
+          mean,
+          sd,
+          sorted.front(),
+          quantile_of_sorted(sorted, 0.5),
+          quantile_of_sorted(sorted, 0.9),
+          sorted.back()};
 }
 
 std::vector<double> cumulative_share(const std::vector<double>& values, const std::vector<double>& limits,
@@ -52,7 +57,8 @@ std::vector<double> cumulative_share(const std::vector<double>& values, const st
   std::vector<double> shares;
   shares.reserve(limits.size());
   for (const double limit : limits) {
-    const auto within = std::count_if(values.begin(), values.end(), [&](double value) { return value <= limit; });
+    const auto within =
+        std::count_if(values.begin(), values.end(), [&](double value) { return value <= limit; });
     shares.push_back(of == 0 ? 0.0 : static_cast<double>(within) / static_cast<double>(of));
   }
   return shares;

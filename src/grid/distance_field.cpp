@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -25,43 +26,43 @@ std::vector<int> column_distances(const OccupancyGrid& occupancy, int cap) {
   return distances;
 }
 
-/// The lower envelope of the parabolas (x - i)^2 + heights[i], by Felzenszwalb & Huttenlocher's algorithm 1.
+double square(int i) { return static_cast<double>(i) * i; }
+
+/// The lower envelope of parabolas (x - tip)^2 + height, by Felzenszwalb & Huttenlocher's algorithm 1.
 class LowerEnvelope {
  public:
-  explicit LowerEnvelope(int width) : tips_(width), begins_(width + 1) {}
+  void clear() { pieces_.clear(); }
+  bool empty() const { return pieces_.empty(); }
 
-  void build(const std::vector<double>& heights) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    count_ = 0;
-    for (int i = 0; i < static_cast<int>(heights.size()); ++i) {
-      double begin = -kInfinity;
-      while (count_ > 0 && (begin = meeting(heights, tips_[count_ - 1], i)) <= begins_[count_ - 1]) --count_;
-      if (count_ == 0) begin = -kInfinity;
-      tips_[count_] = i;
-      begins_[count_] = begin;
-      ++count_;
+  /// Expects tips in ascending order.
+  void add(int tip, double height) {
+    double begin = -std::numeric_limits<double>::infinity();
+    while (!pieces_.empty()) {
+      const Piece& last = pieces_.back();
+      begin = (height - last.height + square(tip) - square(last.tip)) / (2.0 * (tip - last.tip));
+      if (begin > last.begin) break;
+      pieces_.pop_back();
     }
+    pieces_.push_back({tip, height, begin});
   }
 
-  /// Calls `use(x, i)` for x = 0 .. width-1 with the parabola i that is lowest there.
+  /// Calls `use(x, value)` for x = 0 .. width-1.
   template <typename Use>
   void for_each(int width, Use use) const {
-    for (int x = 0, k = 0; x < width; ++x) {
-      while (k + 1 < count_ && begins_[k + 1] < x) ++k;
-      use(x, tips_[k]);
+    auto piece = pieces_.begin();
+    for (int x = 0; x < width; ++x) {
+      while (std::next(piece) != pieces_.end() && std::next(piece)->begin < x) ++piece;
+      use(x, square(x - piece->tip) + piece->height);
     }
   }
 
  private:
-  /// Where the parabola of j, further right, passes under that of i.
-  static double meeting(const std::vector<double>& heights, int i, int j) {
-    return (heights[j] - heights[i] + static_cast<double>(j) * j - static_cast<double>(i) * i) /
-           (2.0 * (j - i));
-  }
-
-  std::vector<int> tips_;
-  std::vector<double> begins_;
-  int count_ = 0;
+  struct Piece {
+    int tip;
+    double height;
+    double begin;  ///< it is the lowest from here to where the next begins
+  };
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace
@@ -72,25 +73,24 @@ DistanceField::DistanceField(const OccupancyGrid& occupancy, double max_distance
       max_distance_m_(max_distance_m) {
   assert(max_distance_m > 0);
   const GridGeometry& geometry = occupancy.geometry();
-  if (geometry.size() == 0) return;
-  // Nothing farther than the cap can come out below the maximum, so the sums stay small and exact.
-  const double farthest = std::hypot(geometry.columns, geometry.rows);
-  const int cap = static_cast<int>(std::ceil(std::min(max_distance_m / geometry.resolution_m, farthest))) + 1;
+  const double farthest_cells = std::hypot(geometry.columns, geometry.rows);
+  const int cap =
+      static_cast<int>(std::ceil(std::min(max_distance_m / geometry.resolution_m, farthest_cells))) + 1;
   const std::vector<int> in_column = column_distances(occupancy, cap);
-  const double cap_squared = static_cast<double>(cap) * cap;
 
-  LowerEnvelope envelope(geometry.columns);
-  std::vector<double> heights(static_cast<std::size_t>(geometry.columns));
+  LowerEnvelope envelope;
   for (int row = 0; row < geometry.rows; ++row) {
     const std::size_t begin = geometry.index({0, row});
-    for (std::size_t x = 0; x < heights.size(); ++x)
-      heights[x] = static_cast<double>(in_column[begin + x]) * in_column[begin + x];
-    envelope.build(heights);
-    envelope.for_each(geometry.columns, [&](int x, int tip) {
-      const double squared = static_cast<double>(x - tip) * (x - tip) + heights[tip];
-      if (squared >= cap_squared) return;  // no wall within the cap: the maximum stands
+    envelope.clear();
+    for (int x = 0; x < geometry.columns; ++x) {
+      // A column whose nearest wall is beyond the cap cannot bring any distance below the maximum.
+      if (in_column[begin + x] < cap) envelope.add(x, square(in_column[begin + x]));
+    }
+    if (envelope.empty()) continue;
+    envelope.for_each(geometry.columns, [&](int x, double squared_cells) {
+      if (squared_cells >= square(cap)) return;
       distances_m_.values()[begin + x] =
-          static_cast<float>(std::min(max_distance_m, std::sqrt(squared) * geometry.resolution_m));
+          static_cast<float>(std::min(max_distance_m, std::sqrt(squared_cells) * geometry.resolution_m));
     });
   }
 }

@@ -1,16 +1,16 @@
 #include "mstsl/io/atomic_file.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cassert>
 #include <cerrno>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace mstsl::io {
 namespace fs = std::filesystem;
@@ -22,21 +22,26 @@ std::string_view advice(int code) {
   switch (code) {
     case ENOSPC:
     case EDQUOT:
-    case EFBIG: return "; free some space or choose another place for it";
-    case ENOENT: return "; make its folder first";
+    case EFBIG:
+      return "; free some space or choose another place for it";
+    case ENOENT:
+      return "; make its folder first";
     case EACCES:
     case EPERM:
-    case EROFS: return "; choose a folder that you may write to";
-    default: return "";
+    case EROFS:
+      return "; choose a folder that you may write to";
+    default:
+      return "";
   }
 }
 
 Error cannot_write(const fs::path& file, int code) {
-  return Error(
-      fmt::format("cannot write {}: {}{}", file.string(), std::generic_category().message(code), advice(code)));
+  return Error(fmt::format("cannot write {}: {}{}", file.string(), std::generic_category().message(code),
+                           advice(code)));
 }
 
-/// Whether the locked descriptor is still what the name stands for: another writer may have renamed it meanwhile.
+/// Whether the locked descriptor is still what the name stands for: another writer may have renamed it
+/// meanwhile.
 bool is_still_named(int descriptor, const fs::path& name) {
   struct stat by_descriptor {};
   struct stat by_name {};
@@ -44,7 +49,8 @@ bool is_still_named(int descriptor, const fs::path& name) {
          by_descriptor.st_ino == by_name.st_ino && by_descriptor.st_dev == by_name.st_dev;
 }
 
-/// Opens and locks the temporary file, emptied; -1 and errno on failure (EWOULDBLOCK: someone else is writing it).
+/// Opens and locks the temporary file, emptied; -1 and errno on failure (EWOULDBLOCK: someone else is writing
+/// it).
 int open_part(const fs::path& part) {
   for (;;) {
     const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
@@ -141,12 +147,14 @@ Result<AtomicFile> AtomicFile::open(const fs::path& target, IfDropped if_dropped
   const fs::path part = part_name(state->final_name);
   state->descriptor = open_part(part);
   if (state->descriptor < 0 && errno == EWOULDBLOCK)
-    return Error(fmt::format("cannot write {}: another program is writing it just now; wait for it or choose another name",
-                             target.string()));
+    return Error(fmt::format(
+        "cannot write {}: another program is writing it just now; wait for it or choose another name",
+        target.string()));
   if (state->descriptor < 0) return cannot_write(target, errno);
   state->part = part;
   struct stat existing {};
-  if (stat(state->final_name.c_str(), &existing) == 0 && fchmod(state->descriptor, existing.st_mode & 07777) != 0)
+  if (stat(state->final_name.c_str(), &existing) == 0 &&
+      fchmod(state->descriptor, existing.st_mode & 07777) != 0)
     return cannot_write(target, errno);
   return AtomicFile(std::move(state));
 }

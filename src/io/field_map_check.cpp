@@ -17,12 +17,15 @@ void check_cell(const FieldMap& map, std::size_t i) {
   const auto& variance = map.variance_uT2[i];
   const Cell cell = map.geometry.cell(i);
   const bool empty = mean.array().isNaN().all() && variance.array().isNaN().all();
-  if (map.supported[i] > 1) throw FileProblem("'supported' is {} at column {}, row {}; it must be 0 or 1",
-                                              map.supported[i], cell.column, cell.row);
+  if (map.supported[i] > 1)
+    throw FileProblem("'supported' is {} at column {}, row {}; it must be 0 or 1", map.supported[i],
+                      cell.column, cell.row);
   if (empty && map.supported[i] == 1)
-    throw FileProblem("the cell at column {}, row {} counts as supported but has no field", cell.column, cell.row);
+    throw FileProblem("the cell at column {}, row {} counts as supported but has no field", cell.column,
+                      cell.row);
   if (!empty && !(mean.allFinite() && variance.allFinite()))
-    throw FileProblem("the cell at column {}, row {} lacks some of its field and variance", cell.column, cell.row);
+    throw FileProblem("the cell at column {}, row {} lacks some of its field and variance", cell.column,
+                      cell.row);
   if (!empty && variance.minCoeff() < 0.0F)
     throw FileProblem("the cell at column {}, row {} has a negative variance", cell.column, cell.row);
 }
@@ -31,7 +34,8 @@ void check_hyperparameter(const std::string& name, double value) {
   const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_';
   });
-  if (!plain) throw FileProblem("the hyper-parameter '{}' has a name of other than letters, digits and _", name);
+  if (!plain)
+    throw FileProblem("the hyper-parameter '{}' has a name of other than letters, digits and _", name);
   if (!std::isfinite(value)) throw FileProblem("the hyper-parameter '{}' is {}", name, value);
 }
 
@@ -41,10 +45,11 @@ void check_geometry(const GridGeometry& geometry) {
   if (geometry.columns <= 0 || geometry.rows <= 0)
     throw FileProblem("the grid has no cells ({} x {})", geometry.columns, geometry.rows);
   if (geometry.size() > kMaxCells)
-    throw FileProblem("the grid has {} x {} cells, more than the {} that a field map may have", geometry.columns,
-                      geometry.rows, kMaxCells);
+    throw FileProblem("the grid has {} x {} cells, more than the {} that a field map may have",
+                      geometry.columns, geometry.rows, kMaxCells);
   if (!(geometry.resolution_m > 0.0) || !geometry.map_T_grid.is_finite())
-    throw FileProblem("the grid's resolution ({} m) or pose is no positive, finite number", geometry.resolution_m);
+    throw FileProblem("the grid's resolution ({} m) or pose is no positive, finite number",
+                      geometry.resolution_m);
   const double extent_m = geometry.resolution_m * std::max(geometry.columns, geometry.rows);
   if (!(extent_m < kMaxExtent_m) || geometry.map_T_grid.position().cwiseAbs().maxCoeff() > kMaxExtent_m)
     throw FileProblem("the grid reaches further than {:g} m", kMaxExtent_m);
@@ -54,7 +59,8 @@ void check_field_map(const FieldMap& map) {
   check_geometry(map.geometry);
   const std::size_t cells = map.geometry.size();
   if (map.mean_uT.size() != cells || map.variance_uT2.size() != cells || map.supported.size() != cells)
-    throw FileProblem("the field map's arrays do not fit its {} x {} cells", map.geometry.columns, map.geometry.rows);
+    throw FileProblem("the field map's arrays do not fit its {} x {} cells", map.geometry.columns,
+                      map.geometry.rows);
   for (std::size_t i = 0; i < cells; ++i) check_cell(map, i);
   for (std::size_t i = 0; i < map.fingerprints.size(); ++i)
     if (!map.fingerprints[i].position_m.allFinite() || !map.fingerprints[i].field_uT.allFinite())

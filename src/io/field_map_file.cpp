@@ -1,14 +1,14 @@
 #include "mstsl/io/field_map_file.hpp"
 
-#include <fmt/format.h>
-#include <netcdf.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
+
+#include <fmt/format.h>
+#include <netcdf.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/io/atomic_file.hpp"
@@ -57,10 +57,11 @@ void describe(NetcdfWriter& file, int variable, const char* unit, const std::str
   file.attribute(variable, "long_name", long_name);
 }
 
-void write_axis(NetcdfWriter& file, const char* name, const char* axis, int dimension, const std::vector<double>& centers_m,
-                bool turned) {
+void write_axis(NetcdfWriter& file, const char* name, const char* axis, int dimension,
+                const std::vector<double>& centers_m, bool turned) {
   const int variable = file.variable(name, {dimension}, centers_m);
-  describe(file, variable, "m", fmt::format("{} of the cell's centre in the {} frame", name, turned ? "grid" : "map"));
+  describe(file, variable, "m",
+           fmt::format("{} of the cell's centre in the {} frame", name, turned ? "grid" : "map"));
   file.attribute(variable, "axis", std::string_view(axis));
 }
 
@@ -77,11 +78,13 @@ void write_grid(NetcdfWriter& file, const FieldMap& map) {
     const int mean = file.variable(c.mean, {y, x}, column<float, Eigen::Vector3f>(map.mean_uT, component));
     describe(file, mean, "uT", fmt::format("magnetic flux density {}", c.direction));
     file.attribute(mean, "ancillary_variables", fmt::format("{} supported", c.variance));
-    const int variance = file.variable(c.variance, {y, x}, column<float, Eigen::Vector3f>(map.variance_uT2, component));
+    const int variance =
+        file.variable(c.variance, {y, x}, column<float, Eigen::Vector3f>(map.variance_uT2, component));
     describe(file, variance, "uT2", fmt::format("variance of the magnetic flux density {}", c.direction));
   }
   const int supported = file.variable("supported", {y, x}, map.supported);
-  file.attribute(supported, "long_name", std::string_view("whether a fingerprint lies within the model's reach"));
+  file.attribute(supported, "long_name",
+                 std::string_view("whether a fingerprint lies within the model's reach"));
   file.attribute(supported, "flag_values", std::vector<std::uint8_t>{0, 1});
   file.attribute(supported, "flag_meanings", std::string_view("unsupported supported"));
 }
@@ -91,17 +94,23 @@ void write_fingerprints(NetcdfWriter& file, const std::vector<Fingerprint>& fing
   const int dimension = file.dimension("fingerprint", fingerprints.size());
   const auto write = [&](const char* name, const char* unit, const std::string& long_name,
                          const std::function<double(const Fingerprint&)>& value) {
-    describe(file, file.variable(name, {dimension}, column<double, Fingerprint>(fingerprints, value)), unit, long_name);
+    describe(file, file.variable(name, {dimension}, column<double, Fingerprint>(fingerprints, value)), unit,
+             long_name);
   };
-  write("fp_x", "m", "x of the fingerprint in the map frame", [](const Fingerprint& f) { return f.position_m.x(); });
-  write("fp_y", "m", "y of the fingerprint in the map frame", [](const Fingerprint& f) { return f.position_m.y(); });
+  write("fp_x", "m", "x of the fingerprint in the map frame",
+        [](const Fingerprint& f) { return f.position_m.x(); });
+  write("fp_y", "m", "y of the fingerprint in the map frame",
+        [](const Fingerprint& f) { return f.position_m.y(); });
   for (std::size_t k = 0; k < kComponents.size(); ++k)
-    write(kComponents[k].fingerprint, "uT", fmt::format("measured magnetic flux density {}", kComponents[k].direction),
+    write(kComponents[k].fingerprint, "uT",
+          fmt::format("measured magnetic flux density {}", kComponents[k].direction),
           [k](const Fingerprint& f) { return f.field_uT[static_cast<Eigen::Index>(k)]; });
 }
 
 void write_attributes(NetcdfWriter& file, const FieldMap& map) {
-  const auto global = [&](const std::string& name, const auto& value) { file.attribute(NC_GLOBAL, name.c_str(), value); };
+  const auto global = [&](const std::string& name, const auto& value) {
+    file.attribute(NC_GLOBAL, name.c_str(), value);
+  };
   global("Conventions", std::string_view("CF-1.8"));
   global("title", std::string_view("Magnetic field map of a building"));
   global("source", fmt::format("mstsl, model {}", to_string(map.model)));
@@ -117,25 +126,28 @@ void write_attributes(NetcdfWriter& file, const FieldMap& map) {
   global("history", fmt::format("{}", fmt::join(map.provenance, "\n")));
 }
 
-void check_axis(const std::vector<double>& found_m, const std::vector<double>& expected_m, double resolution_m,
-                const char* name) {
+void check_axis(const std::vector<double>& found_m, const std::vector<double>& expected_m,
+                double resolution_m, const char* name) {
   for (std::size_t i = 0; i < found_m.size(); ++i)
     if (!(std::abs(found_m[i] - expected_m[i]) < 0.01 * resolution_m))
-      throw FileProblem("the coordinate '{}' contradicts the attributes resolution_m and grid_origin_{}_m at index {} "
-                        "({} m, not {} m); was the file cropped or resampled?",
-                        name, name, i, found_m[i], expected_m[i]);
+      throw FileProblem(
+          "the coordinate '{}' contradicts the attributes resolution_m and grid_origin_{}_m at index {} "
+          "({} m, not {} m); was the file cropped or resampled?",
+          name, name, i, found_m[i], expected_m[i]);
 }
 
 GridGeometry read_geometry(const NetcdfReader& file) {
   const auto columns = file.dimension("x");
   const auto rows = file.dimension("y");
-  if (!columns || !rows) throw FileProblem("it has no dimensions x and y; is this a field map made by `mstsl map magnetic`?");
+  if (!columns || !rows)
+    throw FileProblem("it has no dimensions x and y; is this a field map made by `mstsl map magnetic`?");
   constexpr std::size_t kMost = 1'000'000'000;
   GridGeometry g;
   g.columns = static_cast<int>(std::min(*columns, kMost));
   g.rows = static_cast<int>(std::min(*rows, kMost));
   g.resolution_m = file.number("resolution_m");
-  g.map_T_grid = Pose2{file.number("grid_origin_x_m"), file.number("grid_origin_y_m"), file.number("grid_yaw_rad")};
+  g.map_T_grid =
+      Pose2{file.number("grid_origin_x_m"), file.number("grid_origin_y_m"), file.number("grid_yaw_rad")};
   check_geometry(g);
   if (std::abs(g.map_T_grid.yaw) > kPi)
     throw FileProblem("grid_yaw_rad is {}; it must lie between -pi and pi", g.map_T_grid.yaw);
@@ -170,14 +182,16 @@ std::vector<Fingerprint> read_fingerprints(const NetcdfReader& file) {
   read("fp_x", "m", [](Fingerprint& f, double v) { f.position_m.x() = v; });
   read("fp_y", "m", [](Fingerprint& f, double v) { f.position_m.y() = v; });
   for (std::size_t k = 0; k < kComponents.size(); ++k)
-    read(kComponents[k].fingerprint, "uT", [k](Fingerprint& f, double v) { f.field_uT[static_cast<Eigen::Index>(k)] = v; });
+    read(kComponents[k].fingerprint, "uT",
+         [k](Fingerprint& f, double v) { f.field_uT[static_cast<Eigen::Index>(k)] = v; });
   return fingerprints;
 }
 
 FieldModel read_model(const NetcdfReader& file) {
   const std::string name = file.text("model");
   const auto model = field_model_from(name);
-  if (!model) throw FileProblem("the attribute 'model' is '{}'; gpr, bilinear and fingerprint are known", name);
+  if (!model)
+    throw FileProblem("the attribute 'model' is '{}'; gpr, bilinear and fingerprint are known", name);
   return *model;
 }
 

@@ -1,17 +1,18 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "mstsl/core/result.hpp"
 
 namespace mstsl::io {
 
-/// What is wrong inside a file. Private to this module: parsers throw it, and `guarded` makes it an Error at the edge.
+/// What is wrong inside a file. Private to this module: parsers throw it, and `guarded` makes it an Error at
+/// the edge.
 struct FileProblem : std::runtime_error {
   template <typename... Args>
   explicit FileProblem(fmt::format_string<Args...> format, Args&&... args)

@@ -7,7 +7,8 @@ namespace mstsl::io {
 Image make_image(std::uint64_t width, std::uint64_t height, int channels) {
   if (width == 0 || height == 0) throw FileProblem("the image has no pixels ({} x {})", width, height);
   if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels)
-    throw FileProblem("the image claims {} x {} pixels, more than the {} that a map may have", width, height, kMaxPixels);
+    throw FileProblem("the image claims {} x {} pixels, more than the {} that a map may have", width, height,
+                      kMaxPixels);
   Image image{static_cast<int>(width), static_cast<int>(height), channels, {}};
   image.samples.resize(width * height * static_cast<std::size_t>(channels));
   return image;

@@ -8,7 +8,8 @@
 
 namespace mstsl::io {
 
-/// More pixels than any map has (820 m squared at 5 cm), yet they fit in memory: larger headers are believed by no one.
+/// More pixels than any map has (820 m squared at 5 cm), yet they fit in memory: larger headers are believed
+/// by no one.
 inline constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;
 
 /// A picture, 8 bit a sample, its samples side by side, the top row first.

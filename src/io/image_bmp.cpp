@@ -8,7 +8,8 @@
 namespace mstsl::io {
 namespace {
 
-// Field offsets and constants after Microsoft's "Bitmap Storage": BITMAPFILEHEADER, BITMAPINFOHEADER, BITMAPV4HEADER.
+// Field offsets and constants after Microsoft's "Bitmap Storage": BITMAPFILEHEADER, BITMAPINFOHEADER,
+// BITMAPV4HEADER.
 constexpr std::size_t kFileHeaderBytes = 14;
 constexpr std::size_t kInfoHeaderBytes = 40;
 constexpr std::size_t kV4HeaderBytes = 108;
@@ -42,7 +43,8 @@ struct Header {
 int byte_shift(std::uint32_t mask) {
   const int shift = mask == 0 ? -1 : std::countr_zero(mask);
   if (mask != 0 && (shift % 8 != 0 || mask >> shift != 0xff))
-    throw FileProblem("the BMP image packs its colours in an unusual way (mask {:#010x}); save it as PNG", mask);
+    throw FileProblem("the BMP image packs its colours in an unusual way (mask {:#010x}); save it as PNG",
+                      mask);
   return shift;
 }
 
@@ -60,7 +62,8 @@ std::array<int, 4> color_shifts(const Bytes& bytes, std::uint32_t header_bytes, 
 Header read_header(const Bytes& bytes) {
   const std::uint32_t header_bytes = bytes.u32(kFileHeaderBytes);
   if (header_bytes < kInfoHeaderBytes || header_bytes > 1024)
-    throw FileProblem("the BMP image has a header of {} bytes, which no known kind has; save it as PNG", header_bytes);
+    throw FileProblem("the BMP image has a header of {} bytes, which no known kind has; save it as PNG",
+                      header_bytes);
   Header header{};
   const auto width = static_cast<std::int32_t>(bytes.u32(18));
   const auto height = static_cast<std::int32_t>(bytes.u32(22));
@@ -70,11 +73,15 @@ Header read_header(const Bytes& bytes) {
   header.top_down = height < 0;
   header.bits = bytes.u16(28);
   header.compression = bytes.u32(30);
-  const bool known_bits = header.bits == 1 || header.bits == 4 || header.bits == 8 || header.bits == 24 || header.bits == 32;
-  const bool plain = header.compression == kUncompressed || (header.compression == kBitFields && header.bits == 32);
+  const bool known_bits =
+      header.bits == 1 || header.bits == 4 || header.bits == 8 || header.bits == 24 || header.bits == 32;
+  const bool plain =
+      header.compression == kUncompressed || (header.compression == kBitFields && header.bits == 32);
   if (!known_bits || !plain)
-    throw FileProblem("the BMP image has {} bits a pixel and compression {}; only uncompressed 1, 4, 8, 24 and 32 bits "
-                      "are read: save it as PNG", header.bits, header.compression);
+    throw FileProblem(
+        "the BMP image has {} bits a pixel and compression {}; only uncompressed 1, 4, 8, 24 and 32 bits "
+        "are read: save it as PNG",
+        header.bits, header.compression);
   header.palette_at = kFileHeaderBytes + header_bytes;
   const std::uint32_t colors = bytes.u32(46);
   const std::uint32_t most = header.bits <= 8 ? 1U << header.bits : 0;
@@ -113,8 +120,8 @@ Image decode_bmp(std::string_view file) {
   const Header header = read_header(bytes);
   const std::uint64_t stride = (header.width * header.bits + 31) / 32 * 4;  // rows end on 4 bytes
   if (header.pixels_at > bytes.size() || stride * header.height > bytes.size() - header.pixels_at)
-    throw FileProblem("the BMP image is cut off: {} x {} pixels need {} bytes, it has {}", header.width, header.height,
-                      header.pixels_at + stride * header.height, bytes.size());
+    throw FileProblem("the BMP image is cut off: {} x {} pixels need {} bytes, it has {}", header.width,
+                      header.height, header.pixels_at + stride * header.height, bytes.size());
   const std::size_t channels = header.shift[3] < 0 ? 3 : 4;
   Image image = make_image(header.width, header.height, static_cast<int>(channels));
   std::size_t out = 0;
@@ -122,7 +129,8 @@ Image decode_bmp(std::string_view file) {
     const std::size_t row_at = header.pixels_at + stride * (header.top_down ? y : header.height - 1 - y);
     for (std::size_t x = 0; x < header.width; ++x) {
       const std::uint32_t rgba = pixel(bytes, header, row_at, x);
-      for (std::size_t k = 0; k < channels; ++k) image.samples[out++] = static_cast<std::uint8_t>(rgba >> (8 * k));
+      for (std::size_t k = 0; k < channels; ++k)
+        image.samples[out++] = static_cast<std::uint8_t>(rgba >> (8 * k));
     }
   }
   return image;

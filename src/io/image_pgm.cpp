@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cctype>
+
+#include <fmt/format.h>
 
 #include "file_problem.hpp"
 #include "image.hpp"
@@ -23,8 +23,10 @@ class Tokens {
     std::uint32_t value = 0;
     for (; at_ < bytes_.size() && bytes_[at_] >= '0' && bytes_[at_] <= '9'; ++at_)
       value = std::min(kLimit, value * 10 + static_cast<std::uint32_t>(bytes_[at_] - '0'));
-    if (at_ == start && at_ == bytes_.size()) throw FileProblem("the PGM image is cut off before its {}", what);
-    if (at_ == start) throw FileProblem("the PGM image has no number at byte {}, where its {} belongs", at_, what);
+    if (at_ == start && at_ == bytes_.size())
+      throw FileProblem("the PGM image is cut off before its {}", what);
+    if (at_ == start)
+      throw FileProblem("the PGM image has no number at byte {}, where its {} belongs", at_, what);
     return value;
   }
 
@@ -59,7 +61,9 @@ void fill_from_text(Image& image, Tokens& tokens, std::uint32_t maxval) {
 void fill_from_binary(Image& image, std::string_view raster, std::uint32_t maxval) {
   const bool wide = maxval > 255;
   for (std::size_t i = 0; i < image.samples.size(); ++i) {
-    const auto byte = [&](std::size_t at) { return static_cast<std::uint32_t>(static_cast<unsigned char>(raster[at])); };
+    const auto byte = [&](std::size_t at) {
+      return static_cast<std::uint32_t>(static_cast<unsigned char>(raster[at]));
+    };
     image.samples[i] = scaled(wide ? byte(2 * i) << 8 | byte(2 * i + 1) : byte(i), maxval);
   }
 }
@@ -74,12 +78,13 @@ Image decode_pgm(std::string_view bytes) {
   const std::uint32_t maxval = tokens.number("greatest value");
   if (maxval == 0 || maxval > 65535)
     throw FileProblem("the PGM image gives {} as its greatest value; 1 to 65535 are allowed", maxval);
-  // Before anything is allocated: a pixel takes at least a byte (binary) or a digit and a space (text) of the file.
+  // Before anything is allocated: a pixel takes at least a byte (binary) or a digit and a space (text) of the
+  // file.
   const std::uint64_t needed = text ? 2 * width * height - 1 : width * height * (maxval > 255 ? 2 : 1);
   const std::string_view raster = tokens.raster();
   if (width * height > 0 && raster.size() < needed)
-    throw FileProblem("the PGM image is cut off: {} x {} pixels need {} bytes, it has {}", width, height, needed,
-                      raster.size());
+    throw FileProblem("the PGM image is cut off: {} x {} pixels need {} bytes, it has {}", width, height,
+                      needed, raster.size());
   Image image = make_image(width, height, 1);
   if (text)
     fill_from_text(image, tokens, maxval);

@@ -1,8 +1,8 @@
-#include <png.h>
-
 #include <csetjmp>
 #include <cstring>
 #include <memory>
+
+#include <png.h>
 
 #include "file_problem.hpp"
 #include "image.hpp"
@@ -49,14 +49,14 @@ struct Decoder {
   ~Decoder() { png_destroy_read_struct(&png, info != nullptr ? &info : nullptr, nullptr); }
 };
 
-// libpng leaves a failure by longjmp, which must pass over no C++ object with a destructor: so these two functions
-// have none, and answer whether they came to their end.
+// libpng leaves a failure by longjmp, which must pass over no C++ object with a destructor: so these two
+// functions have none, and answer whether they came to their end.
 
 /// Reads the header and asks for 8-bit gray, RGB, gray + alpha or RGBA, without any gamma correction.
 bool read_header(const Decoder& decoder) {
   if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;
   png_read_info(decoder.png, decoder.info);
-  png_set_expand(decoder.png);    // palettes, 1-4 bit gray, transparent colours
+  png_set_expand(decoder.png);  // palettes, 1-4 bit gray, transparent colours
   png_set_scale_16(decoder.png);
   png_set_interlace_handling(decoder.png);
   png_read_update_info(decoder.png, decoder.info);
@@ -70,7 +70,8 @@ bool read_pixels(const Decoder& decoder, png_bytepp rows) {
   return true;
 }
 
-/// Before memory is taken: deflate shortens by no more than 1032 to 1, so a small file cannot hold a huge image.
+/// Before memory is taken: deflate shortens by no more than 1032 to 1, so a small file cannot hold a huge
+/// image.
 void expect_room_for_pixels(const Decoder& decoder, std::size_t file_bytes) {
   constexpr std::uint64_t kMostDeflate = 1032;
   const std::uint64_t bits = std::uint64_t{png_get_image_width(decoder.png, decoder.info)} *
@@ -78,12 +79,14 @@ void expect_room_for_pixels(const Decoder& decoder, std::size_t file_bytes) {
                              png_get_bit_depth(decoder.png, decoder.info);
   if (bits / 8 > file_bytes * kMostDeflate)
     throw FileProblem("the PNG image is cut off: {} bytes cannot hold its {} x {} pixels", file_bytes,
-                      png_get_image_width(decoder.png, decoder.info), png_get_image_height(decoder.png, decoder.info));
+                      png_get_image_width(decoder.png, decoder.info),
+                      png_get_image_height(decoder.png, decoder.info));
 }
 
 /// Gray + alpha as RGB + alpha, because map_server averages alpha as one of four.
 Image with_gray_spread(const Image& gray_alpha) {
-  Image image = make_image(static_cast<std::uint64_t>(gray_alpha.width), static_cast<std::uint64_t>(gray_alpha.height), 4);
+  Image image = make_image(static_cast<std::uint64_t>(gray_alpha.width),
+                           static_cast<std::uint64_t>(gray_alpha.height), 4);
   for (std::size_t i = 0; i < gray_alpha.samples.size() / 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) image.samples[4 * i + k] = gray_alpha.samples[2 * i];
     image.samples[4 * i + 3] = gray_alpha.samples[2 * i + 1];

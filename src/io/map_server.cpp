@@ -1,8 +1,5 @@
 #include "mstsl/io/map_server.hpp"
 
-#include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +8,9 @@
 #include <span>
 #include <string_view>
 #include <utility>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/io/atomic_file.hpp"
@@ -49,8 +49,11 @@ struct Settings {
 
 YAML::Node need(const YAML::Node& root, const char* key) {
   const YAML::Node node = root[key];
-  if (!node) throw FileProblem("the key '{}' is missing; a map_server yaml has image, resolution, origin, negate, "
-                               "occupied_thresh and free_thresh", key);
+  if (!node)
+    throw FileProblem(
+        "the key '{}' is missing; a map_server yaml has image, resolution, origin, negate, "
+        "occupied_thresh and free_thresh",
+        key);
   return node;
 }
 
@@ -65,7 +68,8 @@ T as(const YAML::Node& node, const char* key, const char* kind) {
 
 double finite_number(const YAML::Node& node, const char* key) {
   const double value = as<double>(node, key, "a number");
-  if (!std::isfinite(value)) throw FileProblem("'{}' (line {}) is {}, not a finite number", key, node.Mark().line + 1, value);
+  if (!std::isfinite(value))
+    throw FileProblem("'{}' (line {}) is {}, not a finite number", key, node.Mark().line + 1, value);
   return value;
 }
 
@@ -115,7 +119,8 @@ Settings settings_from(const YAML::Node& root) {
   settings.free_threshold = threshold(root, "free_thresh");
   settings.mode = mode(root["mode"]);
   if (settings.free_threshold > settings.occupied_threshold)
-    throw FileProblem("'free_thresh' {} is above 'occupied_thresh' {}", settings.free_threshold, settings.occupied_threshold);
+    throw FileProblem("'free_thresh' {} is above 'occupied_thresh' {}", settings.free_threshold,
+                      settings.occupied_threshold);
   return settings;
 }
 
@@ -149,16 +154,18 @@ OccupancyGrid to_grid(const Image& image, const Settings& settings) {
   const std::span samples(image.samples);
   for (std::size_t i = 0; i < grid.values().size(); ++i) {
     const Cell pixel = grid.geometry().cell(i);
-    grid[{pixel.column, image.height - 1 - pixel.row}] = state_of(samples.subspan(i * channels, channels), settings);
+    grid[{pixel.column, image.height - 1 - pixel.row}] =
+        state_of(samples.subspan(i * channels, channels), settings);
   }
   return grid;
 }
 
 std::vector<std::string> warnings_about(const Settings& settings, const fs::path& yaml) {
   if (settings.mode == Mode::kTrinary) return {};
-  return {fmt::format("{}: mode {} is read as trinary: cells between free_thresh {} and occupied_thresh {} count as unknown",
-                      yaml.string(), settings.mode == Mode::kScale ? "scale" : "raw", settings.free_threshold,
-                      settings.occupied_threshold)};
+  return {fmt::format(
+      "{}: mode {} is read as trinary: cells between free_thresh {} and occupied_thresh {} count as unknown",
+      yaml.string(), settings.mode == Mode::kScale ? "scale" : "raw", settings.free_threshold,
+      settings.occupied_threshold)};
 }
 
 std::string encode_settings(const std::string& image, const GridGeometry& geometry) {
@@ -166,8 +173,10 @@ std::string encode_settings(const std::string& image, const GridGeometry& geomet
   name << image;
   const Pose2& origin = geometry.map_T_grid;
   return fmt::format(
-      "image: {}\nmode: trinary\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: {}\nfree_thresh: {}\n",
-      name.c_str(), geometry.resolution_m, origin.x, origin.y, origin.yaw, kOccupiedThreshold, kFreeThreshold);
+      "image: {}\nmode: trinary\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: "
+      "{}\nfree_thresh: {}\n",
+      name.c_str(), geometry.resolution_m, origin.x, origin.y, origin.yaw, kOccupiedThreshold,
+      kFreeThreshold);
 }
 
 Image to_image(const OccupancyGrid& grid) {
@@ -194,13 +203,15 @@ Result<MapFile> read_map_file(const fs::path& yaml) {
   MapFile map;
   map.image = yaml.parent_path() / settings->image;  // an absolute image path stands for itself
   const Result<std::string> bytes = read_file(map.image, kMaxImageBytes);
-  if (!bytes) return Error(fmt::format("{}: 'image' points to a file that cannot be used: {}", yaml.string(), bytes.error().message()));
+  if (!bytes)
+    return Error(fmt::format("{}: 'image' points to a file that cannot be used: {}", yaml.string(),
+                             bytes.error().message()));
   Result<OccupancyGrid> grid = guarded(map.image, [&] { return to_grid(decode_image(*bytes), *settings); });
   if (!grid) return grid.error();
   map.grid = *std::move(grid);
   if (count(map.grid, CellState::kFree) == 0)
-    return Error(fmt::format("{}: the map has no free cell; check 'negate' ({}) and 'free_thresh' ({})", yaml.string(),
-                             settings->negate ? 1 : 0, settings->free_threshold));
+    return Error(fmt::format("{}: the map has no free cell; check 'negate' ({}) and 'free_thresh' ({})",
+                             yaml.string(), settings->negate ? 1 : 0, settings->free_threshold));
   map.warnings = warnings_about(*settings, yaml);
   return map;
 }
@@ -214,7 +225,8 @@ Result<OccupancyGrid> read_map(const fs::path& yaml) {
 Result<void> write_map(const OccupancyGrid& grid, const fs::path& yaml) {
   if (yaml.extension() != ".yaml" && yaml.extension() != ".yml")
     return Error(fmt::format("cannot write the map {}: its name must end in .yaml", yaml.string()));
-  if (grid.values().empty()) return Error(fmt::format("cannot write the map {}: it has no cells", yaml.string()));
+  if (grid.values().empty())
+    return Error(fmt::format("cannot write the map {}: it has no cells", yaml.string()));
   const fs::path image = fs::path(yaml).replace_extension(".pgm");
   // The image first: whoever sees the yaml finds what it names.
   if (const Result<void> written = write_file(image, encode_pgm(to_image(grid))); !written) return written;

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-/// The little of the NetCDF-4 C library that field maps need. Everything throws FileProblem. Files are made in a scratch
-/// file and read from memory, so that the library neither locks nor half-writes the user's file.
+/// The little of the NetCDF-4 C library that field maps need. Everything throws FileProblem. Files are made
+/// in a scratch file and read from memory, so that the library neither locks nor half-writes the user's file.
 namespace mstsl::io {
 
 /// Held while a NetcdfWriter or NetcdfReader lives: the C library may be entered by one thread at a time.
@@ -75,8 +75,10 @@ class NetcdfReader {
   std::optional<std::size_t> dimension(const char* name) const;
 
   /// All values of a variable over exactly these dimensions, in this order, in this unit ("" for none).
-  std::vector<float> floats(const char* name, const std::vector<const char*>& dimensions, std::string_view unit) const;
-  std::vector<double> doubles(const char* name, const std::vector<const char*>& dimensions, std::string_view unit) const;
+  std::vector<float> floats(const char* name, const std::vector<const char*>& dimensions,
+                            std::string_view unit) const;
+  std::vector<double> doubles(const char* name, const std::vector<const char*>& dimensions,
+                              std::string_view unit) const;
   std::vector<std::uint8_t> bytes(const char* name, const std::vector<const char*>& dimensions) const;
 
   /// Global attributes.

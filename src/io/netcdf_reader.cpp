@@ -1,10 +1,10 @@
-#include <fmt/format.h>
-#include <netcdf.h>
-#include <netcdf_mem.h>
-
 #include <algorithm>
 #include <array>
 #include <string>
+
+#include <fmt/format.h>
+#include <netcdf.h>
+#include <netcdf_mem.h>
 
 #include "file_problem.hpp"
 #include "netcdf_file.hpp"
@@ -29,7 +29,8 @@ NetcdfReader::NetcdfReader(std::string_view bytes) {
   // The library only reads through the pointer in this mode; its signature lacks the const.
   const int status = nc_open_mem("memory", NC_NOWRITE, bytes.size(), const_cast<char*>(bytes.data()), &id_);
   if (status == NC_NOERR) return;
-  if (status == NC_ENOTNC || bytes.size() < 8) throw FileProblem("this is no NetCDF file; make one with `mstsl map magnetic`");
+  if (status == NC_ENOTNC || bytes.size() < 8)
+    throw FileProblem("this is no NetCDF file; make one with `mstsl map magnetic`");
   throw FileProblem("the NetCDF file is damaged or cut off ({})", nc_strerror(status));
 }
 
@@ -47,7 +48,8 @@ NetcdfReader::Variable NetcdfReader::find(const char* name, const std::vector<co
                                           bool integer) const {
   int variable = -1;
   if (nc_inq_varid(id_, name, &variable) != NC_NOERR)
-    throw FileProblem("the variable '{}' is missing; is this a field map made by `mstsl map magnetic`?", name);
+    throw FileProblem("the variable '{}' is missing; is this a field map made by `mstsl map magnetic`?",
+                      name);
   nc_type type = NC_NAT;
   int rank = 0;
   std::array<int, NC_MAX_VAR_DIMS> ids{};
@@ -61,7 +63,9 @@ NetcdfReader::Variable NetcdfReader::find(const char* name, const std::vector<co
     fits = nc_inq_dimid(id_, dimensions[i], &wanted) == NC_NOERR && wanted == ids[i];
     length *= dimension(dimensions[i]).value_or(0);
   }
-  if (!fits) throw FileProblem("the variable '{}' does not have the dimensions ({})", name, fmt::join(dimensions, ", "));
+  if (!fits)
+    throw FileProblem("the variable '{}' does not have the dimensions ({})", name,
+                      fmt::join(dimensions, ", "));
   return {variable, length};
 }
 
@@ -90,7 +94,8 @@ std::vector<double> NetcdfReader::doubles(const char* name, const std::vector<co
   return values;
 }
 
-std::vector<std::uint8_t> NetcdfReader::bytes(const char* name, const std::vector<const char*>& dimensions) const {
+std::vector<std::uint8_t> NetcdfReader::bytes(const char* name,
+                                              const std::vector<const char*>& dimensions) const {
   const Variable variable = find(name, dimensions, true);
   std::vector<std::uint8_t> values(variable.length);
   check(nc_get_var_uchar(id_, variable.id, values.data()), name);
@@ -119,7 +124,8 @@ std::vector<std::string> NetcdfReader::texts(int variable, const char* name) con
   nc_type type = NC_NAT;
   std::size_t length = 0;
   if (nc_inq_att(id_, variable, name, &type, &length) != NC_NOERR) return {};
-  if (length > kMaxAttribute) throw FileProblem("the NetCDF file is damaged: the attribute '{}' claims {} items", name, length);
+  if (length > kMaxAttribute)
+    throw FileProblem("the NetCDF file is damaged: the attribute '{}' claims {} items", name, length);
   if (type == NC_CHAR) {
     std::string text(length, '\0');
     check(nc_get_att_text(id_, variable, name, text.data()), name);

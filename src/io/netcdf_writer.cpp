@@ -1,13 +1,13 @@
-#include <hdf5.h>
-#include <netcdf.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <system_error>
 #include <utility>
+
+#include <hdf5.h>
+#include <netcdf.h>
+#include <unistd.h>
 
 #include "mstsl/io/file_bytes.hpp"
 
@@ -18,7 +18,9 @@ namespace mstsl::io {
 namespace {
 
 void check(int status) {
-  if (status != NC_NOERR) throw FileProblem("NetCDF cannot make it ({}); is the folder for temporary files full?", nc_strerror(status));
+  if (status != NC_NOERR)
+    throw FileProblem("NetCDF cannot make it ({}); is the folder for temporary files full?",
+                      nc_strerror(status));
 }
 
 std::mutex& library_mutex() {
@@ -29,7 +31,8 @@ std::mutex& library_mutex() {
 }  // namespace
 
 NetcdfLock::NetcdfLock() : lock_(library_mutex()) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // NetCDF silences HDF5 too, but only for the thread that came first
+  H5Eset_auto2(H5E_DEFAULT, nullptr,
+               nullptr);  // NetCDF silences HDF5 too, but only for the thread that came first
 }
 
 ScratchFile::ScratchFile() {
@@ -37,14 +40,15 @@ ScratchFile::ScratchFile() {
   name_ = (std::filesystem::temp_directory_path(ignored) / "mstsl-XXXXXX").string();
   const int descriptor = mkstemp(name_.data());
   if (descriptor < 0)
-    throw FileProblem("no temporary file can be made as {}: {}; set TMPDIR to a folder that you may write to", name_,
-                      std::generic_category().message(errno));
+    throw FileProblem("no temporary file can be made as {}: {}; set TMPDIR to a folder that you may write to",
+                      name_, std::generic_category().message(errno));
   ::close(descriptor);
 }
 
 ScratchFile::~ScratchFile() { unlink(name_.c_str()); }
 
-// Not nc_create_mem(): what it makes does not track the order of its parts, and no program can open it for writing.
+// Not nc_create_mem(): what it makes does not track the order of its parts, and no program can open it for
+// writing.
 NetcdfWriter::NetcdfWriter() { check(nc_create(scratch_.name().c_str(), NC_NETCDF4 | NC_CLOBBER, &id_)); }
 
 NetcdfWriter::~NetcdfWriter() {
@@ -65,7 +69,8 @@ int NetcdfWriter::define(const char* name, int type, const std::vector<int>& dim
   return variable;
 }
 
-int NetcdfWriter::variable(const char* name, const std::vector<int>& dimensions, const std::vector<float>& values) {
+int NetcdfWriter::variable(const char* name, const std::vector<int>& dimensions,
+                           const std::vector<float>& values) {
   const int variable = define(name, NC_FLOAT, dimensions);
   const float fill = std::numeric_limits<float>::quiet_NaN();
   check(nc_def_var_fill(id_, variable, NC_FILL, &fill));
@@ -73,7 +78,8 @@ int NetcdfWriter::variable(const char* name, const std::vector<int>& dimensions,
   return variable;
 }
 
-int NetcdfWriter::variable(const char* name, const std::vector<int>& dimensions, const std::vector<double>& values) {
+int NetcdfWriter::variable(const char* name, const std::vector<int>& dimensions,
+                           const std::vector<double>& values) {
   const int variable = define(name, NC_DOUBLE, dimensions);
   check(nc_put_var_double(id_, variable, values.data()));
   return variable;

@@ -12,7 +12,8 @@ constexpr std::string_view kMark = "\nmstsl crc32 ";
 constexpr std::size_t kSealBytes = kMark.size() + 8 + 1;  // eight hexadecimal digits and a line feed
 
 std::string seal_of(std::string_view bytes) {
-  const auto crc = crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  const auto crc =
+      crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   return fmt::format("{}{:08x}\n", kMark, crc);
 }
 

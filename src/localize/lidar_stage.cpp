@@ -71,10 +71,7 @@ void LidarStage::observe(const std::vector<BeamReturn>& returns_base, const Pose
   const bool due = since_match_m_ >= options_.match_every_m || since_match_rad_ >= options_.match_every_rad;
   if (!first && !due) return;
   since_match_m_ = since_match_rad_ = 0.0;
-  PointSet points;
-  points.reserve(returns_base.size());
-  for (const BeamReturn& beam : returns_base) points.push_back(beam.point_m);
-  match_all(points);
+  match_all(end_points(returns_base));
 }
 
 void LidarStage::move_hypotheses(const Pose2& moved, bool local_map_begins) {
@@ -155,14 +152,19 @@ std::vector<double> LidarStage::weights() const {
     listed += hypothesis.field_probability;
     if (!hypothesis.rejected) best_log = std::max(best_log, hypothesis.scan_log_likelihood);
   }
-  // "None of these" is where the field puts the rest; no scan speaks against it.
-  double sum = std::max(1.0 - listed, 1.0 - options_.max_probability);
+  double sum = 0.0, pass = 0.0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (hypotheses_[i].rejected) continue;
-    weights[i] = hypotheses_[i].field_probability * std::exp(hypotheses_[i].scan_log_likelihood - best_log);
+    const double likelihood = std::exp(hypotheses_[i].scan_log_likelihood - best_log);
+    weights[i] = hypotheses_[i].field_probability * likelihood;
     sum += weights[i];
+    pass += likelihood;
   }
-  for (double& weight : weights) weight /= sum;
+  // If the robot is at none of these, the best one got through as a look-alike. How often that happens here is told
+  // by the others, which cannot all be right: Laplace's rule of succession over them.
+  const double look_alikes = std::max(pass, 1.0) / (static_cast<double>(weights.size()) + 1.0);
+  sum += std::max(1.0 - listed, 0.0) * look_alikes;
+  for (double& weight : weights) weight *= sum > 0.0 ? options_.max_probability / sum : 0.0;
   return weights;
 }
 

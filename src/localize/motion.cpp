@@ -9,17 +9,15 @@ Pose2 straight_motion(const Pose2& from, double distance_m, double turn_rad) {
                      from.yaw + turn_rad);
 }
 
-Eigen::Matrix3d moved_covariance(const Pose2& map_T_base, const Eigen::Matrix3d& covariance, const Pose2& step,
-                                 const OdometryErrors& errors) {
+Eigen::Matrix3d moved_covariance(const Pose2& map_T_base, const Eigen::Matrix3d& covariance,
+                                 const Pose2& step, const OdometryNoise& noise) {
   const Eigen::Vector2d shift = map_T_base.rotation() * step.position();
   Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
   by_pose(0, 2) = -shift.y();
   by_pose(1, 2) = shift.x();
-  const double distance_m = step.position().norm();
-  const double position_m = errors.position_share * distance_m;
-  const double yaw_rad = std::hypot(errors.yaw_per_m_rad * distance_m, errors.yaw_share * step.yaw);
-  const Eigen::Vector3d added(position_m * position_m, position_m * position_m, yaw_rad * yaw_rad);
-  return by_pose * covariance * by_pose.transpose() + Eigen::Matrix3d(added.asDiagonal());
+  Eigen::Matrix3d by_step = Eigen::Matrix3d::Identity();
+  by_step.topLeftCorner<2, 2>() = map_T_base.rotation();
+  return by_pose * covariance * by_pose.transpose() + by_step * noise.covariance(step) * by_step.transpose();
 }
 
 }  // namespace mstsl

@@ -10,13 +10,6 @@ namespace {
 
 constexpr std::size_t kMostHypotheses = 20;  // as many as an estimate lists
 
-PointSet end_points(const std::vector<BeamReturn>& returns) {
-  PointSet points;
-  points.reserve(returns.size());
-  for (const BeamReturn& beam : returns) points.push_back(beam.point_m);
-  return points;
-}
-
 /// Best first; those that were removed are left out.
 std::vector<Hypothesis> listed(const std::vector<LidarHypothesis>& hypotheses,
                                const std::vector<double>& weights) {

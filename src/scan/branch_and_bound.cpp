@@ -46,12 +46,13 @@ struct Later {
   }
 };
 
-/// The largest turn that moves no point by more than a cell (Hess et al. 2016, Eq. 7).
-double finest_turn(const PointSet& points, double resolution_m) {
+/// The largest turn that moves no point over the map by more than a cell (Hess et al. 2016, Eq. 7).
+double finest_turn(const PointSet& points, const GridGeometry& geometry) {
+  const double diagonal_m = geometry.resolution_m * std::hypot(geometry.columns, geometry.rows);
   double farthest_m = 0;
-  for (const Eigen::Vector2d& p : points) farthest_m = std::max(farthest_m, p.norm());
-  if (farthest_m <= resolution_m / 2) return kPi;
-  return std::acos(1 - resolution_m * resolution_m / (2 * farthest_m * farthest_m));
+  for (const Eigen::Vector2d& p : points) farthest_m = std::max(farthest_m, std::min(p.norm(), diagonal_m));
+  if (farthest_m <= geometry.resolution_m / 2) return kPi;
+  return 2 * std::asin(geometry.resolution_m / (2 * farthest_m));
 }
 
 /// The lattice's turns from the window's centre, in the order 0, +1, -1, +2 ... steps.
@@ -73,8 +74,7 @@ class Search {
          const PoseSearchOptions& options)
       : map_(map), center_(window.center), options_(options), points_(static_cast<int>(points.size())) {
     const GridFrame frame(map.geometry());
-    const double step =
-        options.yaw_step_rad > 0 ? options.yaw_step_rad : finest_turn(points, map.geometry().resolution_m);
+    const double step = options.yaw_step_rad > 0 ? options.yaw_step_rad : finest_turn(points, map.geometry());
     for (const double turn : turns(window.reach_rad, step)) scans_.push_back(turned(frame, points, turn));
     const Eigen::Vector2d reach = window.reach_m / map.geometry().resolution_m;
     reach_x_ = static_cast<int>(std::ceil(reach.x() - 1e-9));

@@ -30,6 +30,18 @@ Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& pose,
   return by_pose * covariance * by_pose.transpose() + by_motion * motion_covariance * by_motion.transpose();
 }
 
+/// The returns that have a neighbouring beam's return near them.
+std::vector<BeamReturn> dense_returns(const std::vector<BeamReturn>& returns, double max_gap_m) {
+  std::vector<BeamReturn> dense;
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    const auto near = [&](std::size_t j) {
+      return (returns[i].point_m - returns[j].point_m).norm() <= max_gap_m;
+    };
+    if ((i > 0 && near(i - 1)) || (i + 1 < returns.size() && near(i + 1))) dense.push_back(returns[i]);
+  }
+  return dense;
+}
+
 }  // namespace
 
 Eigen::Matrix3d OdometryNoise::covariance(const Pose2& motion) const {
@@ -44,10 +56,11 @@ LocalMap::LocalMap(const LocalMapOptions& options)
     : options_(options), drawn_(square(options), options.beams), field_(occupancy(), options.likelihood) {}
 
 void LocalMap::insert(const std::vector<BeamReturn>& returns_base, const Pose2& last_T_base) {
-  const PointSet points = thinned(end_points(returns_base), options_.spacing_m);
+  const std::vector<BeamReturn> dense = dense_returns(returns_base, options_.max_gap_m);
+  const PointSet points = thinned(end_points(dense), options_.spacing_m);
   if (has_scan_) align(points, last_T_base);
   if (points.empty() || (has_scan_ && !has_moved_since_drawn())) return;
-  draw(returns_base, points);
+  draw(dense, points);
   has_scan_ = true;
 }
 
@@ -55,10 +68,27 @@ void LocalMap::align(const PointSet& points_base, const Pose2& last_T_base) {
   const PosePrior predicted{
       local_T_base_ * last_T_base,
       propagated(covariance_, local_T_base_, last_T_base, options_.odometry.covariance(last_T_base))};
-  const Refinement aligned = refine_pose(field_, at_most(points_base, options_.max_points), predicted.mean,
-                                         predicted, options_.refine);
+  const auto aligned_from = [&](const Pose2& start, const PointSet& points) {
+    return refine_pose(field_, at_most(points, options_.max_points), start, predicted, options_.refine);
+  };
+  // Points where the map has not looked yet would pull the scan back to the ends of the walls drawn so far: 5
+  // % of the way along a bare corridor was lost to them. The first alignment tells which those are, the
+  // second does without.
+  const Refinement roughly = aligned_from(predicted.mean, points_base);
+  const Refinement aligned =
+      aligned_from(roughly.map_T_base, points_over_drawn(points_base, roughly.map_T_base));
   local_T_base_ = aligned.map_T_base;
   covariance_ = aligned.covariance;
+}
+
+PointSet LocalMap::points_over_drawn(const PointSet& points_base, const Pose2& local_T_base) const {
+  const GridFrame frame(drawn_.geometry());
+  PointSet over_drawn;
+  std::ranges::copy_if(points_base, std::back_inserter(over_drawn), [&](const Eigen::Vector2d& p) {
+    const Cell cell = frame.cell_at(local_T_base * p);
+    return drawn_.values().contains(cell) && drawn_.values()[cell] != 0;
+  });
+  return over_drawn;
 }
 
 bool LocalMap::has_moved_since_drawn() const {

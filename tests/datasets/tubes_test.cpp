@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -57,6 +58,20 @@ TEST(Tubes, HaveWallsHalfTheirWidthFromTheirMiddle) {
   const sim::SegmentIndex walls(plan.walls);
   for (double share = 0.0; share <= 1.0; share += 0.05)
     EXPECT_NEAR(walls.clearance(share * Eigen::Vector2d(20.0, 5.0), 5.0), 1.1, 0.05);
+}
+
+TEST(Tubes, HaveNoWallButTheirOwn) {
+  const std::vector<Path> ring_m = {{{0.0, 0.0}, {12.0, 0.0}, {12.0, 8.0}, {0.0, 8.0}, {0.0, 0.0}}};
+  const sim::WorldPlan plan = test::must(tube_plan(ring_m));
+  double inside_m = 0.0, outside_m = 0.0;
+  for (const sim::Segment& wall : plan.walls) {
+    EXPECT_NEAR(distance_to(ring_m, sim::point_along(wall, 0.5)), 1.1, 0.08);
+    const Eigen::Vector2d middle_m = sim::point_along(wall, 0.5) - Eigen::Vector2d(6.0, 4.0);
+    const bool inner = std::abs(middle_m.x()) < 6.0 && std::abs(middle_m.y()) < 4.0;
+    (inner ? inside_m : outside_m) += sim::length(wall);
+  }
+  EXPECT_NEAR(inside_m, 2.0 * (9.8 + 5.8), 0.5);                       // the block in the middle
+  EXPECT_NEAR(outside_m, 2.0 * (12.0 + 8.0) + 2.0 * kPi * 1.1, 0.7);  // with its rounded corners
 }
 
 TEST(Tubes, HaveLanesThatStayInThem) {

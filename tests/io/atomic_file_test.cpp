@@ -1,14 +1,15 @@
 #include "mstsl/io/atomic_file.hpp"
 
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
 #include "mstsl/io/file_bytes.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::io {

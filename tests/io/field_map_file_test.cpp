@@ -1,16 +1,17 @@
 #include "mstsl/io/field_map_file.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <thread>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/random.hpp"
 #include "mstsl/io/atomic_file.hpp"
 #include "mstsl/io/file_bytes.hpp"
+
 #include "mutations.hpp"
 #include "other_programs.hpp"
 #include "test_support.hpp"
@@ -24,7 +25,8 @@ using test::must;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 Eigen::Vector3f noise(Random& random, double mean, double sd) {
-  return Eigen::Vector3d(random.normal(mean, sd), random.normal(mean, sd), random.normal(mean, sd)).cast<float>();
+  return Eigen::Vector3d(random.normal(mean, sd), random.normal(mean, sd), random.normal(mean, sd))
+      .cast<float>();
 }
 
 /// A map with every kind of content: empty, supported and unsupported cells, fingerprints, all attributes.
@@ -34,7 +36,8 @@ FieldMap sample_map(Random random, double yaw_rad = 0.0) {
   for (std::size_t i = 0; i < map.geometry.size(); ++i) {
     const bool empty = random.chance(0.3);
     map.mean_uT.push_back(empty ? Eigen::Vector3f::Constant(kNaN) : noise(random, 20, 8));
-    map.variance_uT2.push_back(empty ? Eigen::Vector3f::Constant(kNaN) : noise(random, 0, 2).cwiseAbs().eval());
+    map.variance_uT2.push_back(empty ? Eigen::Vector3f::Constant(kNaN)
+                                     : noise(random, 0, 2).cwiseAbs().eval());
     map.supported.push_back(!empty && random.chance(0.8) ? 1 : 0);
   }
   map.model = FieldModel::kGpr;
@@ -42,7 +45,8 @@ FieldMap sample_map(Random random, double yaw_rad = 0.0) {
   map.hyperparameters = {{"length_scale_x_m", 0.1 + 1e-17}, {"noise_x_uT", 1.0 / 3.0}};
   map.provenance = {"survey_1.mcap", "--model gpr, \"quoted\" µT\nsecond line"};
   for (int i = 0; i < 40; ++i)
-    map.fingerprints.push_back({{random.normal(0, 30), random.normal(0, 30)}, noise(random, 0, 40).cast<double>() / 3.0});
+    map.fingerprints.push_back(
+        {{random.normal(0, 30), random.normal(0, 30)}, noise(random, 0, 40).cast<double>() / 3.0});
   return map;
 }
 
@@ -68,7 +72,9 @@ void expect_same(const FieldMap& a, const FieldMap& b) {
   }
 }
 
-FieldMap through_memory(const FieldMap& map) { return must(decode_field_map(must(encode_field_map(map, "m")), "m")); }
+FieldMap through_memory(const FieldMap& map) {
+  return must(decode_field_map(must(encode_field_map(map, "m")), "m"));
+}
 
 std::string error_of(const std::string& bytes) {
   const auto map = decode_field_map(bytes, "field.nc");
@@ -95,8 +101,10 @@ TEST(FieldMapFile, ReadsBackEveryBitItWrote) {
 }
 
 TEST(FieldMapFile, GivesTheSameBytesForTheSameMap) {
-  EXPECT_EQ(must(encode_field_map(sample_map(Random(3)), "a")), must(encode_field_map(sample_map(Random(3)), "b")));
-  EXPECT_NE(must(encode_field_map(sample_map(Random(3)), "a")), must(encode_field_map(sample_map(Random(4)), "a")));
+  EXPECT_EQ(must(encode_field_map(sample_map(Random(3)), "a")),
+            must(encode_field_map(sample_map(Random(3)), "b")));
+  EXPECT_NE(must(encode_field_map(sample_map(Random(3)), "a")),
+            must(encode_field_map(sample_map(Random(4)), "a")));
 }
 
 TEST(FieldMapFile, MayBeReadFromManyThreadsAtOnce) {
@@ -123,12 +131,14 @@ TEST(FieldMapFile, RefusesToWriteWhatCouldNotBeRead) {
   EXPECT_NE(refusal([](FieldMap& m) { m.mean_uT.pop_back(); }).find("do not fit"), std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.mean_uT[0].y() = kNaN; }).find("lacks some"), std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.mean_uT[0].y() = INFINITY; }).find("lacks some"), std::string::npos);
-  EXPECT_NE(refusal([](FieldMap& m) { m.variance_uT2[0].z() = -1; }).find("negative variance"), std::string::npos);
+  EXPECT_NE(refusal([](FieldMap& m) { m.variance_uT2[0].z() = -1; }).find("negative variance"),
+            std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.supported[0] = 2; }).find("must be 0 or 1"), std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.geometry.resolution_m = 0; }).find("resolution"), std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.hyperparameters["a b/c"] = 1; }).find("'a b/c'"), std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.hyperparameters["a"] = NAN; }).find("'a'"), std::string::npos);
-  EXPECT_NE(refusal([](FieldMap& m) { m.fingerprints[3].field_uT.x() = NAN; }).find("fingerprint 3"), std::string::npos);
+  EXPECT_NE(refusal([](FieldMap& m) { m.fingerprints[3].field_uT.x() = NAN; }).find("fingerprint 3"),
+            std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m = FieldMap(); }).find("no cells"), std::string::npos);
 }
 
@@ -137,7 +147,8 @@ TEST(FieldMapFile, TellsWhatIsNoFieldMapWithoutNoiseOnStderr) {
   EXPECT_NE(error_of("").find("no NetCDF file"), std::string::npos) << error_of("");
   EXPECT_NE(error_of(std::string(5000, 'x')).find("no NetCDF file"), std::string::npos);
   const std::string good = must(encode_field_map(sample_map(Random(7)), "m"));
-  EXPECT_NE(error_of(good.substr(0, 3000)).find("damaged or cut off"), std::string::npos) << error_of(good.substr(0, 3000));
+  EXPECT_NE(error_of(good.substr(0, 3000)).find("damaged or cut off"), std::string::npos)
+      << error_of(good.substr(0, 3000));
   std::thread([&] { EXPECT_NE(error_of(good.substr(0, 3000)), "no error"); }).join();
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   const auto absent = read_field_map("/nowhere/field.nc");
@@ -158,7 +169,8 @@ TEST(FieldMapFile, NoticesEveryDamage) {
 TEST(FieldMapFile, AnswersToEveryLength) {
   const std::string good = must(encode_field_map(sample_map(Random(8)), "m"));
   for (std::size_t length = 0; length < good.size(); length += 101)
-    if (const auto map = decode_field_map(good.substr(0, length), "m"); map) expect_same(*map, sample_map(Random(8)));
+    if (const auto map = decode_field_map(good.substr(0, length), "m"); map)
+      expect_same(*map, sample_map(Random(8)));
   EXPECT_FALSE(decode_field_map(good.substr(0, good.size() / 2), "m"));
 }
 
@@ -168,7 +180,8 @@ class Opened {
   Opened() { must(write_field_map(sample_map(Random(10)), file())); }
   fs::path file() const { return folder_.path() / "field.nc"; }
   test::Output python(const std::string& script) const {
-    must(write_file(folder_.path() / "script.py", "import netCDF4\nd = netCDF4.Dataset('field.nc', 'r+')\n" + script));
+    must(write_file(folder_.path() / "script.py",
+                    "import netCDF4\nd = netCDF4.Dataset('field.nc', 'r+')\n" + script));
     return test::run_program("cd '" + folder_.path().string() + "' && /usr/bin/python3 script.py");
   }
 
@@ -181,10 +194,11 @@ TEST(FieldMapFile, OpensInNcdump) {
   const Opened opened;
   const test::Output header = test::run_program("ncdump -h '" + opened.file().string() + "'");
   EXPECT_EQ(header.status, 0);
-  for (const char* line : {"float bx(y, x)", "bx:units = \"uT\"", "bx:_FillValue = NaNf", "float bz_variance(y, x)",
-                           "byte supported(y, x)", "supported:flag_meanings = \"unsupported supported\"", "double x(x)",
-                           "x:units = \"m\"", "double fp_bx(fingerprint)", ":Conventions = \"CF-1.8\"", ":model = \"gpr\"",
-                           ":hyperparameter_noise_x_uT = 0.3333", ":provenance"})
+  for (const char* line :
+       {"float bx(y, x)", "bx:units = \"uT\"", "bx:_FillValue = NaNf", "float bz_variance(y, x)",
+        "byte supported(y, x)", "supported:flag_meanings = \"unsupported supported\"", "double x(x)",
+        "x:units = \"m\"", "double fp_bx(fingerprint)", ":Conventions = \"CF-1.8\"", ":model = \"gpr\"",
+        ":hyperparameter_noise_x_uT = 0.3333", ":provenance"})
     EXPECT_NE(header.text.find(line), std::string::npos) << line << " in\n" << header.text;
 }
 
@@ -193,9 +207,11 @@ TEST(FieldMapFile, OpensInPythonWithTheSameNumbers) {
   const Opened opened;
   const FieldMap map = sample_map(Random(10));
   const test::Output output = opened.python(
-      "b = d['by'][:]\nprint(d.Conventions, d['by'].units, b.shape, int(b.mask.sum() if b.mask.shape else 0) + "
+      "b = d['by'][:]\nprint(d.Conventions, d['by'].units, b.shape, int(b.mask.sum() if b.mask.shape else 0) "
+      "+ "
       "int((b.filled(float('nan')) != b.filled(float('nan'))).sum()) > 0)\n"
-      "print(repr(float(d['fp_bz'][7])), repr(float(d['x'][0])), repr(float(d['y'][16])), d.hyperparameter_length_scale_x_m)\n");
+      "print(repr(float(d['fp_bz'][7])), repr(float(d['x'][0])), repr(float(d['y'][16])), "
+      "d.hyperparameter_length_scale_x_m)\n");
   EXPECT_EQ(output.status, 0);
   char numbers[200];
   std::snprintf(numbers, sizeof numbers, "%.17g", map.fingerprints[7].field_uT.z());
@@ -204,7 +220,10 @@ TEST(FieldMapFile, OpensInPythonWithTheSameNumbers) {
   double x = 0.0;
   double y = 0.0;
   double length = 0.0;
-  ASSERT_EQ(std::sscanf(output.text.c_str() + output.text.find('\n'), "%lf %lf %lf %lf", &fp_bz, &x, &y, &length), 4) << output.text;
+  ASSERT_EQ(
+      std::sscanf(output.text.c_str() + output.text.find('\n'), "%lf %lf %lf %lf", &fp_bz, &x, &y, &length),
+      4)
+      << output.text;
   EXPECT_EQ(fp_bz, map.fingerprints[7].field_uT.z());
   EXPECT_NEAR(x, map.geometry.center_of({0, 0}).x(), 1e-12);
   EXPECT_NEAR(y, map.geometry.center_of({0, 16}).y(), 1e-12);
@@ -227,10 +246,14 @@ const std::vector<Change> kChanges{
     {"d.resolution_m = 0.1", "contradicts"},
     {"d.resolution_m = 'fine'", "no number"},
     {"d['bx'][3, 4] = float('inf')", "column 4, row 3"},
-    {"d.renameVariable('supported', 's'); d.createVariable('supported', 'f4', ('y', 'x'))", "not of type byte"},
-    {"d.renameVariable('bz', 's'); d.createVariable('bz', 'f4', ('x', 'y')).units = 'uT'", "dimensions (y, x)"},
-    {"d.close(); d = netCDF4.Dataset(name, 'w'); d.createDimension('x', 2000000000); d.createDimension('y', 2000000000); "
-     "d.setncatts(dict(model='gpr', resolution_m=0.05, grid_origin_x_m=0.0, grid_origin_y_m=0.0, grid_yaw_rad=0.0))",
+    {"d.renameVariable('supported', 's'); d.createVariable('supported', 'f4', ('y', 'x'))",
+     "not of type byte"},
+    {"d.renameVariable('bz', 's'); d.createVariable('bz', 'f4', ('x', 'y')).units = 'uT'",
+     "dimensions (y, x)"},
+    {"d.close(); d = netCDF4.Dataset(name, 'w'); d.createDimension('x', 2000000000); d.createDimension('y', "
+     "2000000000); "
+     "d.setncatts(dict(model='gpr', resolution_m=0.05, grid_origin_x_m=0.0, grid_origin_y_m=0.0, "
+     "grid_yaw_rad=0.0))",
      "more than the 100000000"},
     {"d.close(); d = netCDF4.Dataset(name, 'w', format='NETCDF3_CLASSIC')", "'model' is missing"}};
 
@@ -240,8 +263,8 @@ TEST(FieldMapFile, NamesWhatPythonMadeWrong) {
   std::string script = "import shutil\nd.close()\n";
   for (std::size_t i = 0; i < kChanges.size(); ++i) {
     const std::string name = std::to_string(i) + ".nc";
-    script += "name = '" + name + "'\nshutil.copy('field.nc', name)\nd = netCDF4.Dataset(name, 'r+')\n" + kChanges[i].python +
-              "\nd.close()\n";
+    script += "name = '" + name + "'\nshutil.copy('field.nc', name)\nd = netCDF4.Dataset(name, 'r+')\n" +
+              kChanges[i].python + "\nd.close()\n";
   }
   const test::Output output = opened.python(script);
   ASSERT_EQ(output.status, 0) << output.text;

@@ -1,16 +1,17 @@
-#include <gtest/gtest.h>
-#include <png.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+#include <png.h>
+
 #include "mstsl/core/random.hpp"
 #include "mstsl/io/atomic_file.hpp"
 #include "mstsl/io/file_bytes.hpp"
 #include "mstsl/io/map_server.hpp"
+
 #include "mutations.hpp"
 #include "other_programs.hpp"
 #include "test_support.hpp"
@@ -27,9 +28,9 @@ using enum CellState;
 Result<OccupancyGrid> map_of(const std::string& image, const std::string& more_yaml = "") {
   static const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "image", std::ios::binary) << image;
-  std::ofstream(folder.path() / "map.yaml")
-      << "image: image\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
-      << more_yaml;
+  std::ofstream(folder.path() / "map.yaml") << "image: image\nresolution: 1\norigin: [0, 0, 0]\nnegate: "
+                                               "0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
+                                            << more_yaml;
   return read_map(folder.path() / "map.yaml");
 }
 
@@ -69,12 +70,13 @@ std::string bmp(int width, int height, int bits, const std::string& palette, con
                 std::uint32_t compression = 0) {
   const auto pixels_at = static_cast<std::uint32_t>(54 + palette.size());
   return "BM" + little_endian(pixels_at + static_cast<std::uint32_t>(rows.size()), 4) + little_endian(0, 4) +
-         little_endian(pixels_at, 4) + little_endian(40, 4) + little_endian(static_cast<std::uint32_t>(width), 4) +
+         little_endian(pixels_at, 4) + little_endian(40, 4) +
+         little_endian(static_cast<std::uint32_t>(width), 4) +
          little_endian(static_cast<std::uint32_t>(height), 4) + little_endian(1, 2) +
-         little_endian(static_cast<std::uint32_t>(bits), 2) + little_endian(compression, 4) + little_endian(0, 4) +
-         little_endian(2835, 4) + little_endian(2835, 4) +
-         little_endian(compression == 3 ? 0 : static_cast<std::uint32_t>(palette.size() / 4), 4) + little_endian(0, 4) +
-         palette + rows;
+         little_endian(static_cast<std::uint32_t>(bits), 2) + little_endian(compression, 4) +
+         little_endian(0, 4) + little_endian(2835, 4) + little_endian(2835, 4) +
+         little_endian(compression == 3 ? 0 : static_cast<std::uint32_t>(palette.size() / 4), 4) +
+         little_endian(0, 4) + palette + rows;
 }
 
 const std::string kBlackAndWhite = bytes_of({0, 0, 0, 0, 255, 255, 255, 0});
@@ -89,7 +91,8 @@ TEST(Pgm, ReadsTextAndBinaryWithCommentsAndAnyMaxval) {
 }
 
 TEST(Pgm, TellsWhatIsMissing) {
-  EXPECT_NE(error_of("P5 10 10 255\nxx").find("cut off: 10 x 10 pixels need 100 bytes, it has 2"), std::string::npos);
+  EXPECT_NE(error_of("P5 10 10 255\nxx").find("cut off: 10 x 10 pixels need 100 bytes, it has 2"),
+            std::string::npos);
   EXPECT_NE(error_of("P2 3 1 255 0 9").find("cut off"), std::string::npos);
   EXPECT_NE(error_of("P2 3 1 255 0 x 255").find("no number"), std::string::npos);
   EXPECT_NE(error_of("P5 3").find("cut off before its height"), std::string::npos);
@@ -102,14 +105,16 @@ TEST(Pgm, TellsWhatIsMissing) {
 }
 
 TEST(Png, AveragesOverTheChannelsAsMapServerDoes) {
-  EXPECT_EQ(cells(png(3, 1, PNG_FORMAT_GRAY, bytes_of({0, 128, 255}))), (std::vector{kOccupied, kUnknown, kFree}));
+  EXPECT_EQ(cells(png(3, 1, PNG_FORMAT_GRAY, bytes_of({0, 128, 255}))),
+            (std::vector{kOccupied, kUnknown, kFree}));
   EXPECT_EQ(cells(png(3, 1, PNG_FORMAT_RGB, bytes_of({255, 0, 0, 255, 255, 255, 0, 0, 255}))),
             (std::vector{kOccupied, kFree, kOccupied}));
 }
 
 TEST(Png, CountsAlphaAsAChannelInTrinaryAndAsUnknownInScale) {
   // White opaque, black opaque, white transparent, black transparent: means 255, 63.75, 191.25, 0.
-  const std::string image = png(4, 1, PNG_FORMAT_RGBA, bytes_of({255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 0, 0}));
+  const std::string image =
+      png(4, 1, PNG_FORMAT_RGBA, bytes_of({255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 0, 0}));
   EXPECT_EQ(cells(image), (std::vector{kFree, kOccupied, kUnknown, kOccupied}));
   EXPECT_EQ(cells(image, "mode: scale\n"), (std::vector{kFree, kOccupied, kUnknown, kUnknown}));
   const std::string gray = png(3, 1, PNG_FORMAT_GA, bytes_of({255, 255, 0, 255, 255, 0}));
@@ -136,16 +141,21 @@ TEST(Bmp, ReadsEveryDepthBottomUpAndTopDown) {
   const std::string white4 = white3 + std::string(1, '\0');
   const std::string black4 = black3 + std::string(1, '\0');
   EXPECT_EQ(cells(bmp(2, -2, 32, "", white4 + white4 + white4 + black4)), expected);
-  const std::string masks = little_endian(0xff000000, 4) + little_endian(0xff0000, 4) + little_endian(0xff00, 4);
+  const std::string masks =
+      little_endian(0xff000000, 4) + little_endian(0xff0000, 4) + little_endian(0xff00, 4);
   const std::string xbgr_white = std::string(1, '\0') + white3;
-  EXPECT_EQ(cells(bmp(2, -2, 32, masks, xbgr_white + xbgr_white + xbgr_white + std::string(4, '\0'), 3)), expected);
+  EXPECT_EQ(cells(bmp(2, -2, 32, masks, xbgr_white + xbgr_white + xbgr_white + std::string(4, '\0'), 3)),
+            expected);
 }
 
 TEST(Bmp, TellsWhatItCannotRead) {
   EXPECT_NE(error_of(bmp(2, 2, 8, kBlackAndWhite, "abc")).find("cut off"), std::string::npos);
-  EXPECT_NE(error_of(bmp(2, 2, 8, kBlackAndWhite, std::string(8, '\x05'))).find("colour 5 of a palette that has 2"), std::string::npos);
+  EXPECT_NE(
+      error_of(bmp(2, 2, 8, kBlackAndWhite, std::string(8, '\x05'))).find("colour 5 of a palette that has 2"),
+      std::string::npos);
   EXPECT_NE(error_of(bmp(2, 2, 16, "", std::string(8, 'a'))).find("16 bits a pixel"), std::string::npos);
-  EXPECT_NE(error_of(bmp(2, 2, 8, kBlackAndWhite, std::string(8, '\1'), 1)).find("compression 1"), std::string::npos);
+  EXPECT_NE(error_of(bmp(2, 2, 8, kBlackAndWhite, std::string(8, '\1'), 1)).find("compression 1"),
+            std::string::npos);
   EXPECT_NE(error_of(bmp(2'000'000'000, 2'000'000'000, 32, "", "abc")).find("cut off"), std::string::npos);
   EXPECT_NE(error_of(bmp(2, INT32_MIN, 8, kBlackAndWhite, "abc")).find("cut off"), std::string::npos);
   EXPECT_NE(error_of("BM").find("cut off"), std::string::npos);
@@ -161,10 +171,11 @@ TEST(Images, AnswerToEveryDamage) {
     return colors;
   }();
   int bad = 0;
-  for (const std::string& good :
-       {"P5 20 15 255\n" + noise, std::string("P2 # c\n3 2 100 0 20 30 80 90 100"), png(10, 10, PNG_FORMAT_RGB, noise),
-        png(15, 10, PNG_FORMAT_GA, noise), bmp(20, 15, 8, palette, noise), bmp(10, 10, 24, "", noise + noise)})
-    test::for_each_damage(good, 150, random.fork(7), [&](const std::string& image) { bad += map_of(image) ? 0 : 1; });
+  for (const std::string& good : {"P5 20 15 255\n" + noise, std::string("P2 # c\n3 2 100 0 20 30 80 90 100"),
+                                  png(10, 10, PNG_FORMAT_RGB, noise), png(15, 10, PNG_FORMAT_GA, noise),
+                                  bmp(20, 15, 8, palette, noise), bmp(10, 10, 24, "", noise + noise)})
+    test::for_each_damage(good, 150, random.fork(7),
+                          [&](const std::string& image) { bad += map_of(image) ? 0 : 1; });
   EXPECT_GT(bad, 100);
 }
 
@@ -185,17 +196,20 @@ gray.save('interlaced.png', interlace=1)
 gray.convert('RGBA').save('rgba.bmp')
 )";
   must(write_file(folder.path() / "make.py", script));
-  const test::Output made = test::run_program("cd '" + folder.path().string() + "' && /usr/bin/python3 make.py");
+  const test::Output made =
+      test::run_program("cd '" + folder.path().string() + "' && /usr/bin/python3 make.py");
   ASSERT_EQ(made.status, 0) << made.text;
   const auto read = [&](const char* name) { return cells(must(read_file(folder.path() / name, 1 << 20))); };
   const std::vector<CellState> expected = read("gray.pgm");
   for (int row = 0; row < 23; ++row)
     for (int x = 0; x < 37; ++x) {
       const int y = 22 - row;
-      const CellState state = std::vector{kOccupied, kUnknown, kFree}[static_cast<std::size_t>((x * x + 3 * y * y + x * y) % 7 % 3)];
+      const CellState state = std::vector{
+          kOccupied, kUnknown, kFree}[static_cast<std::size_t>((x * x + 3 * y * y + x * y) % 7 % 3)];
       ASSERT_EQ(expected[static_cast<std::size_t>(row * 37 + x)], state) << x << " " << y;
     }
-  for (const char* name : {"gray.png", "gray.bmp", "rgb.png", "rgb.bmp", "palette.png", "palette.bmp", "few.png", "interlaced.png"})
+  for (const char* name : {"gray.png", "gray.bmp", "rgb.png", "rgb.bmp", "palette.png", "palette.bmp",
+                           "few.png", "interlaced.png"})
     EXPECT_EQ(read(name), expected) << name;
 }
 

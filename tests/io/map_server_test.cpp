@@ -1,14 +1,15 @@
 #include "mstsl/io/map_server.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/random.hpp"
 #include "mstsl/io/atomic_file.hpp"
 #include "mstsl/io/file_bytes.hpp"
+
 #include "mutations.hpp"
 #include "test_support.hpp"
 
@@ -19,7 +20,8 @@ namespace fs = std::filesystem;
 using test::must;
 
 constexpr const char* kYaml =
-    "image: map.pgm\nresolution: 0.05\norigin: [1.5, -2.25, 0.5]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    "image: map.pgm\nresolution: 0.05\norigin: [1.5, -2.25, 0.5]\nnegate: 0\noccupied_thresh: "
+    "0.65\nfree_thresh: 0.196\n";
 
 /// A folder with a yaml and an image, read as a map.
 class Files {
@@ -58,7 +60,8 @@ TEST(MapServer, ReadsBackExactlyWhatItWrote) {
   Random random(1);
   const test::TemporaryFolder folder;
   for (int round = 0; round < 20; ++round) {
-    const OccupancyGrid grid = random_grid(1 + static_cast<int>(random.index(30)), 1 + static_cast<int>(random.index(30)), random);
+    const OccupancyGrid grid =
+        random_grid(1 + static_cast<int>(random.index(30)), 1 + static_cast<int>(random.index(30)), random);
     const fs::path yaml = folder.path() / (round % 2 == 0 ? "a map: #1.yaml" : "true.yml");
     must(write_map(grid, yaml));
     const OccupancyGrid back = must(read_map(yaml));
@@ -88,7 +91,9 @@ TEST(MapServer, AgreesWithTheFormulaOfMapServerForEachGrayValue) {
     const MapFile map = must(files.read());
     for (int v = 0; v < 256; ++v) {
       const double occ = negate ? v / 255.0 : (255 - v) / 255.0;
-      const CellState expected = occ > 0.65 ? CellState::kOccupied : occ < 0.196 ? CellState::kFree : CellState::kUnknown;
+      const CellState expected = occ > 0.65    ? CellState::kOccupied
+                                 : occ < 0.196 ? CellState::kFree
+                                               : CellState::kUnknown;
       EXPECT_EQ((map.grid[{v, 0}]), expected) << v << (negate ? " negated" : "");
     }
   }
@@ -98,7 +103,8 @@ TEST(MapServer, ReadsScaleAndRawAsTrinaryAndSaysSo) {
   Files files;
   files.image("P2 4 1 255 0 50 100 255").yaml(std::string(kYaml) + "mode: raw\n");
   const MapFile raw = must(files.read());
-  EXPECT_EQ(raw.grid.values(), (std::vector{CellState::kFree, CellState::kUnknown, CellState::kOccupied, CellState::kUnknown}));
+  EXPECT_EQ(raw.grid.values(),
+            (std::vector{CellState::kFree, CellState::kUnknown, CellState::kOccupied, CellState::kUnknown}));
   ASSERT_EQ(raw.warnings.size(), 1u);
   EXPECT_NE(raw.warnings[0].find("mode raw is read as trinary"), std::string::npos);
   files.image("P2 3 1 255 0 128 255").yaml(std::string(kYaml) + "mode: scale\n");
@@ -146,7 +152,8 @@ TEST(MapServer, SaysWhatIsWrongWithAYaml) {
 TEST(MapServer, RefusesAMapWithoutAFreeCell) {
   Files files;
   files.yaml(kYaml).image("P2 2 1 255 0 205");
-  EXPECT_NE(error_of(files).find("the map has no free cell; check 'negate' (0)"), std::string::npos) << error_of(files);
+  EXPECT_NE(error_of(files).find("the map has no free cell; check 'negate' (0)"), std::string::npos)
+      << error_of(files);
 }
 
 TEST(MapServer, NamesTheFolderOrEndingItCannotWrite) {
@@ -163,7 +170,8 @@ TEST(MapServer, AnswersToEveryDamagedYaml) {
   files.image("P2 2 1 255 0 255");
   int good = 0;
   int bad = 0;
-  test::for_each_damage(kYaml, 300, Random(2), [&](const std::string& text) { (files.yaml(text).read() ? good : bad) += 1; });
+  test::for_each_damage(kYaml, 300, Random(2),
+                        [&](const std::string& text) { (files.yaml(text).read() ? good : bad) += 1; });
   EXPECT_GT(good, 0);
   EXPECT_GT(bad, 100);
 }

@@ -7,7 +7,9 @@
 
 namespace mstsl::test {
 
-/// Calls `parse` with up to `count` prefixes and `count` damaged copies of a good file: single bits, overwritten runs, cut-out and repeated pieces. `parse` must answer, with a value or an error, and not crash.
+/// Calls `parse` with up to `count` prefixes and `count` damaged copies of a good file: single bits,
+/// overwritten runs, cut-out and repeated pieces. `parse` must answer, with a value or an error, and not
+/// crash.
 inline void for_each_damage(const std::string& good, int count, Random random,
                             const std::function<void(const std::string&)>& parse) {
   const std::size_t step = good.size() / static_cast<std::size_t>(count) + 1;
@@ -18,10 +20,18 @@ inline void for_each_damage(const std::string& good, int count, Random random,
       const std::size_t at = random.index(bad.size());
       const std::size_t run = 1 + random.index(8);
       switch (random.index(4)) {
-        case 0: bad[at] = static_cast<char>(bad[at] ^ (1 << random.index(8))); break;
-        case 1: bad.replace(at, run, run, static_cast<char>(random.chance(0.5) ? 0xff : random.index(256))); break;
-        case 2: bad.erase(at, bad.size() > run + 1 ? run : 0); break;
-        default: bad.insert(at, bad.substr(at, run)); break;
+        case 0:
+          bad[at] = static_cast<char>(bad[at] ^ (1 << random.index(8)));
+          break;
+        case 1:
+          bad.replace(at, run, run, static_cast<char>(random.chance(0.5) ? 0xff : random.index(256)));
+          break;
+        case 2:
+          bad.erase(at, bad.size() > run + 1 ? run : 0);
+          break;
+        default:
+          bad.insert(at, bad.substr(at, run));
+          break;
       }
     }
     parse(bad);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -106,6 +107,13 @@ inline std::string read_bytes(const std::filesystem::path& file) {
 
 inline void write_bytes(const std::filesystem::path& file, std::string_view bytes) {
   std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// To compare times exactly, as they are in a log.
+inline std::vector<std::int64_t> nanoseconds(const std::vector<double>& seconds) {
+  std::vector<std::int64_t> all;
+  for (const double second : seconds) all.push_back(Stamp::from_seconds(second).ns);
+  return all;
 }
 
 /// How often a problem was counted whose words contain `words`.

@@ -1,9 +1,9 @@
 #include "mstsl/localize/align.hpp"
 
-#include <gtest/gtest.h>
+#include <cmath>
 
 #include <Eigen/Geometry>
-#include <cmath>
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 
@@ -15,7 +15,8 @@ const Eigen::Vector3d kField(18.0, 7.0, -40.0);  // in the building's axes
 /// The end points, in the base frame, of a long wall along the building's x axis, 1 m to its south.
 PointSet wall_seen_from(const Pose2& building_T_base) {
   PointSet points;
-  for (double x = -6.0; x <= 6.0; x += 0.05) points.push_back(inverse(building_T_base) * Eigen::Vector2d(x, -1.0));
+  for (double x = -6.0; x <= 6.0; x += 0.05)
+    points.push_back(inverse(building_T_base) * Eigen::Vector2d(x, -1.0));
   return points;
 }
 

@@ -1,23 +1,27 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/core/trajectory.hpp"
 #include "mstsl/grid/ray.hpp"
 #include "mstsl/localize/localization_maps.hpp"
+
 #include "test_support.hpp"
 
-/// A small building drawn by hand, with sensors free of noise: what goes wrong in it is the method's own fault.
+/// A small building drawn by hand, with sensors free of noise: what goes wrong in it is the method's own
+/// fault.
 namespace mstsl::test {
 
-/// A ring of corridors, 24 m x 10 m outside and 2 m wide, with recesses in the walls that are nearly symmetric under
-/// half a turn. `map_T_world` lays the whole building, its field and its map's grid elsewhere.
+/// A ring of corridors, 24 m x 10 m outside and 2 m wide, with recesses in the walls that are nearly
+/// symmetric under half a turn. `map_T_world` lays the whole building, its field and its map's grid
+/// elsewhere.
 struct HandMadeWorld {
   Pose2 map_T_world;
   OccupancyGrid map;
@@ -30,9 +34,11 @@ struct HandMadeWorld {
   static bool solid(const Eigen::Vector2d& p) {
     const bool ring = p.x() > 0 && p.y() > 0 && p.x() < 24 && p.y() < 10 &&
                       !(p.x() > 2 && p.x() < 22 && p.y() > 2 && p.y() < 8);
-    const auto recess = [&p](double x, double y) { return std::abs(p.x() - x) < 0.5 && std::abs(p.y() - y) < 0.2; };
-    const bool open = recess(4, 0) || recess(9, 10) || recess(12, 2) || recess(12, 8) || recess(20, 10) || recess(15, 0) ||
-                      recess(17.5, 0);
+    const auto recess = [&p](double x, double y) {
+      return std::abs(p.x() - x) < 0.5 && std::abs(p.y() - y) < 0.2;
+    };
+    const bool open = recess(4, 0) || recess(9, 10) || recess(12, 2) || recess(12, 8) || recess(20, 10) ||
+                      recess(15, 0) || recess(17.5, 0);
     return !ring && !open;
   }
 
@@ -52,7 +58,9 @@ struct HandMadeWorld {
     const Pose2 world_T_grid{-0.5, -0.5, 0.0};
     const GridGeometry geometry{0.05, 500, 220, map_T_world * world_T_grid};
     OccupancyGrid grid(geometry, CellState::kUnknown);
-    const auto center = [&](Cell cell) { return Eigen::Vector2d(0.05 * cell.column - 0.475, 0.05 * cell.row - 0.475); };
+    const auto center = [&](Cell cell) {
+      return Eigen::Vector2d(0.05 * cell.column - 0.475, 0.05 * cell.row - 0.475);
+    };
     for (std::size_t i = 0; i < geometry.size(); ++i) {
       const Eigen::Vector2d p = center(geometry.cell(i));
       if (!solid(p)) {
@@ -69,7 +77,8 @@ struct HandMadeWorld {
   FieldMap field_map() const {
     FieldMap field;
     field.geometry = map.geometry();
-    field.mean_uT.assign(field.geometry.size(), Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+    field.mean_uT.assign(field.geometry.size(),
+                         Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
     field.variance_uT2.assign(field.geometry.size(), Eigen::Vector3f::Constant(0.1F));
     field.supported.assign(field.geometry.size(), 0);
     for (std::size_t i = 0; i < field.geometry.size(); ++i) {
@@ -86,12 +95,14 @@ struct HandMadeWorld {
     for (int beam = 0; beam < 541; ++beam) {
       const double direction = map_T_laser.yaw + scan.angle_min_rad + beam * scan.angle_increment_rad;
       const auto range = cast_ray(map, map_T_laser.position(), direction, 30.0);
-      scan.ranges_m.push_back(range ? static_cast<float>(*range + 0.02) : std::numeric_limits<float>::infinity());
+      scan.ranges_m.push_back(range ? static_cast<float>(*range + 0.02)
+                                    : std::numeric_limits<float>::infinity());
     }
     return scan;
   }
 
-  FieldReading field_at(Stamp stamp, const Pose2& map_T_base, const Eigen::Isometry3d& base_T_magnetometer) const {
+  FieldReading field_at(Stamp stamp, const Pose2& map_T_base,
+                        const Eigen::Isometry3d& base_T_magnetometer) const {
     const Eigen::Isometry3d map_T_sensor = to_isometry3(map_T_base) * base_T_magnetometer;
     return {stamp, map_T_sensor.linear().transpose() * field_uT(map_T_sensor.translation().head<2>())};
   }

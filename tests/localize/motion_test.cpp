@@ -1,10 +1,10 @@
 #include "mstsl/localize/motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/core/random.hpp"
@@ -32,11 +32,11 @@ TEST(StraightMotion, IsTheStraightCaseOfComposingPoses) {
 /// The sample covariance of poses moved one by one, against the first-order formula.
 TEST(MovedCovariance, AgreesWithMovingManySamples) {
   const Pose2 start{1.0, -2.0, 0.7}, step{1.5, 0.4, 0.3};
-  const OdometryErrors errors{0.05, 0.04, 0.1};
+  const OdometryNoise noise;
   Eigen::Matrix3d covariance;
   covariance << 0.04, 0.01, 0.002, 0.01, 0.02, -0.001, 0.002, -0.001, 0.001;
   const Eigen::Matrix3d root = covariance.llt().matrixL();
-  const double way = step.position().norm();
+  const Eigen::Matrix3d noise_root = noise.covariance(step).llt().matrixL();
   const Pose2 middle = start * step;
   Random random(5);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -44,19 +44,21 @@ TEST(MovedCovariance, AgreesWithMovingManySamples) {
   for (int i = 0; i < kSamples; ++i) {
     const Eigen::Vector3d off = root * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
     const Pose2 from{start.x + off.x(), start.y + off.y(), start.yaw + off.z()};
-    const Pose2 noisy{step.x + random.normal(0, 0.05 * way), step.y + random.normal(0, 0.05 * way),
-                      step.yaw + random.normal(0, std::hypot(0.04 * way, 0.1 * step.yaw))};
+    const Eigen::Vector3d slip =
+        noise_root * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    const Pose2 noisy{step.x + slip.x(), step.y + slip.y(), step.yaw + slip.z()};
     const Pose2 to = from * noisy;
     const Eigen::Vector3d error(to.x - middle.x, to.y - middle.y, angle_between(middle.yaw, to.yaw));
     sum += error * error.transpose();
   }
-  const Eigen::Matrix3d predicted = moved_covariance(start, covariance, step, errors);
+  const Eigen::Matrix3d predicted = moved_covariance(start, covariance, step, noise);
   EXPECT_LT((sum / kSamples - predicted).norm(), 0.02 * predicted.norm());
 }
 
-TEST(MovedCovariance, StandingStillAddsNothing) {
+TEST(MovedCovariance, TurnsTheCovarianceWithNothingElse) {
   const Eigen::Matrix3d covariance = 0.01 * Eigen::Matrix3d::Identity();
-  EXPECT_EQ(moved_covariance({3, 4, 1}, covariance, {}, {}), covariance);
+  const OdometryNoise perfect{0.0, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_EQ(moved_covariance({3, 4, 1}, covariance, {}, perfect), covariance);
 }
 
 }  // namespace

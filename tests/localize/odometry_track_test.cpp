@@ -1,8 +1,8 @@
 #include "mstsl/localize/odometry_track.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 

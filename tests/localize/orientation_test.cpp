@@ -1,8 +1,8 @@
 #include "mstsl/localize/orientation.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 
@@ -33,7 +33,8 @@ TEST(Orientation, TakesTheNearestCaseForAMeasuredAngle) {
     for (const double error_deg : {-40.0, -5.0, 5.0, 40.0}) {
       const Eigen::Vector3d axis = axis_at(radians(heading_deg + error_deg));
       const double theta = orientation(turn_between(axis, Eigen::Vector3d::UnitX()));
-      EXPECT_NEAR(angle_between(theta, radians(heading_deg)), 0.0, 1e-12) << heading_deg << " + " << error_deg;
+      EXPECT_NEAR(angle_between(theta, radians(heading_deg)), 0.0, 1e-12)
+          << heading_deg << " + " << error_deg;
     }
 }
 

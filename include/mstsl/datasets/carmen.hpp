@@ -31,7 +31,7 @@ struct CarmenOptions {
   RunOptions runs = {.count = 20, .length_m = 12.0};
   double mapped_share = 0.6;   ///< the first part of the way, in shares of its length: it makes map and survey
   double clearance_m = 0.2;    ///< a later pose nearer to a mapped wall, or off the mapped free ground, is not a revisit
-  double near_m = 3.0;         ///< nor is one farther than this from the first part's way
+  double near_m = 2.0;         ///< nor is one farther than this from the first part's way
   bool drive_lanes = true;     ///< besides the recorded way the survey drives every lane of the map, as the paper's did
   MappingOptions mapping;
   sim::WorldOptions world;     ///< the steel

@@ -22,11 +22,13 @@ PoseError error_between(const Pose2& estimated, const Pose2& truth);
 struct PoseBound {
   double position_m;
   double yaw_rad;
-  bool holds(const PoseError& error) const { return error.position_m <= position_m && error.yaw_rad <= yaw_rad; }
+  bool holds(const PoseError& error) const {
+    return error.position_m <= position_m && error.yaw_rad <= yaw_rad;
+  }
 };
 
-/// What counts as right. The paper names bounds for the initialisation and for the distance driven only (section
-/// IV-B.2); those of a pose are the project's own.
+/// What counts as right. The paper names bounds for the initialisation and for the distance driven only
+/// (section IV-B.2); those of a pose are the project's own.
 struct Criteria {
   PoseBound success{0.5, radians(10.0)};  ///< a pose is right
   PoseBound tight{0.2, radians(3.0)};     ///< a pose is right and good to drive by
@@ -47,9 +49,9 @@ struct JudgedAnswer {
 /// The first set of hypotheses, held against the truth at its stamp (paper Table I).
 struct JudgedInitialisation {
   std::size_t hypotheses = 0;
-  double best_error_m = 0.0;  ///< of the hypothesis nearest to the truth
+  double best_error_m = 0.0;   ///< of the hypothesis nearest to the truth
   double first_error_m = 0.0;  ///< of the most probable one
-  bool succeeded = false;     ///< best_error_m within Criteria::initial_bound_m
+  bool succeeded = false;      ///< best_error_m within Criteria::initial_bound_m
 };
 
 /// What one run's estimates are worth.
@@ -57,10 +59,11 @@ struct RunEvaluation {
   std::size_t estimates = 0;
   std::size_t without_truth = 0;  ///< estimates whose time the truth does not cover; they are not judged
   std::optional<JudgedInitialisation> initialisation;
-  std::vector<JudgedAnswer> answers;     ///< every judged pose, in time order
-  std::optional<JudgedAnswer> last;      ///< that of the last judged estimate; nothing if it ended without a pose
-  std::optional<double> correct_distance_m;  ///< CLD: driven when the first right answer was given, if within the limit
-  std::size_t times_lost = 0;            ///< how often the status turned to "lost"
+  std::vector<JudgedAnswer> answers;  ///< every judged pose, in time order
+  std::optional<JudgedAnswer> last;  ///< that of the last judged estimate; nothing if it ended without a pose
+  std::optional<double>
+      correct_distance_m;      ///< CLD: driven when the first right answer was given, if within the limit
+  std::size_t times_lost = 0;  ///< how often the status turned to "lost"
 
   const JudgedAnswer* first() const { return answers.empty() ? nullptr : &answers.front(); }
   /// The strictest reading of a localized run: the first pose given was right, and given within the limit.

@@ -16,8 +16,8 @@
 
 namespace mstsl {
 
-/// The paper's experiment (section IV) in one simulated world: survey, maps, ten starts driven ten times each, in a
-/// closed loop: the robot sees its first scan, gets beta from it, and really turns by it.
+/// The paper's experiment (section IV) in one simulated world: survey, maps, ten starts driven ten times
+/// each, in a closed loop: the robot sees its first scan, gets beta from it, and really turns by it.
 struct PaperProtocolOptions {
   std::string world = "corridor";
   std::uint64_t seed = 1;
@@ -34,7 +34,8 @@ struct PaperProtocolOptions {
   std::optional<std::size_t> hypotheses;
   Criteria criteria;
   Threads threads;
-  /// Called now and then, by one thread at a time, with what is being done and its share; false ends the protocol.
+  /// Called now and then, by one thread at a time, with what is being done and its share; false ends the
+  /// protocol.
   std::function<bool(const char* what, double share)> progress;
 };
 
@@ -43,7 +44,8 @@ struct ProtocolRun {
   int waypoint = 0;
   int run = 0;
   FieldModel model = FieldModel::kGpr;
-  /// The paper's "Ori. Adj.": how far from parallel (or square) to the building the robot stood after its turn, rad.
+  /// The paper's "Ori. Adj.": how far from parallel (or square) to the building the robot stood after its
+  /// turn, rad.
   double alignment_error_rad = 0.0;
   RunEvaluation evaluation;
 };
@@ -51,14 +53,14 @@ struct ProtocolRun {
 struct ProtocolResult {
   std::string world;
   std::uint64_t seed = 0;
-  std::size_t hypotheses = 0;    ///< K
+  std::size_t hypotheses = 0;  ///< K
   std::size_t fingerprints = 0;
   std::vector<FieldModel> models;
   std::vector<ProtocolRun> runs;  ///< by waypoint, run, model
 };
 
-/// Runs it. The same result at any number of threads. Errors: a world that is not there, a survey or map that cannot
-/// be made, or an end asked for by `progress`.
+/// Runs it. The same result at any number of threads. Errors: a world that is not there, a survey or map that
+/// cannot be made, or an end asked for by `progress`.
 Result<ProtocolResult> run_paper_protocol(const PaperProtocolOptions& options);
 
 }  // namespace mstsl

@@ -20,8 +20,8 @@ struct RunCounts {
   LocalizationStatus last_status = LocalizationStatus::kSearching;
 };
 
-/// The one evaluation loop: feeds any localizer its events in time order and hands on an estimate for each scan that
-/// the localizer processed (it may pass scans over while the robot hardly moves).
+/// The one evaluation loop: feeds any localizer its events in time order and hands on an estimate for each
+/// scan that the localizer processed (it may pass scans over while the robot hardly moves).
 class RunLoop {
  public:
   RunLoop(AnyLocalizer localizer, std::function<void(const Estimate&)> on_estimate)

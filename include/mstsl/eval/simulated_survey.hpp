@@ -23,9 +23,9 @@ struct SimulatedSurveyOptions {
   Threads threads;
 };
 
-/// Drives a survey and collects its fingerprints (paper section III-A.2), one session a log, in the order of the
-/// logs. Errors: those of sim::survey_routes().
-Result<std::vector<Fingerprint>> simulate_survey(const sim::World& world, const SimulatedSurveyOptions& options,
-                                                 const Random& random);
+/// Drives a survey and collects its fingerprints (paper section III-A.2), one session a log, in the order of
+/// the logs. Errors: those of sim::survey_routes().
+Result<std::vector<Fingerprint>> simulate_survey(const sim::World& world,
+                                                 const SimulatedSurveyOptions& options, const Random& random);
 
 }  // namespace mstsl

@@ -20,12 +20,12 @@ struct Interval {
   double high = 1.0;
 };
 
-/// Wilson's score interval of a rate (Wilson 1927) at 95 %: honest for few trials and near 0 and 1, where the usual
-/// normal interval is not. [0, 1] without trials.
+/// Wilson's score interval of a rate (Wilson 1927) at 95 %: honest for few trials and near 0 and 1, where the
+/// usual normal interval is not. [0, 1] without trials.
 Interval wilson_interval(const Rate& rate);
 
-/// The value that the share `q` in [0, 1] of the values lies at or below, linear between order statistics; NaN without
-/// values.
+/// The value that the share `q` in [0, 1] of the values lies at or below, linear between order statistics;
+/// NaN without values.
 double quantile(std::vector<double> values, double q);
 
 /// How a set of values is spread; all NaN without values.
@@ -41,8 +41,8 @@ struct Spread {
 };
 Spread spread_of(const std::vector<double>& values);
 
-/// The share of the values at or below each limit: a cumulative distribution function, read off. `of` is how many there
-/// should be: those that are missing (runs without an answer) lie beyond every limit.
+/// The share of the values at or below each limit: a cumulative distribution function, read off. `of` is how
+/// many there should be: those that are missing (runs without an answer) lie beyond every limit.
 std::vector<double> cumulative_share(const std::vector<double>& values, const std::vector<double>& limits,
                                      std::size_t of);
 

@@ -7,8 +7,8 @@
 
 namespace mstsl {
 
-/// Of the answers whose stated probability of being right lies in [low, high): how many there are, what they claim on
-/// average, and how many were right. Honest numbers have mean_claim near right.share().
+/// Of the answers whose stated probability of being right lies in [low, high): how many there are, what they
+/// claim on average, and how many were right. Honest numbers have mean_claim near right.share().
 struct ReliabilityBin {
   double low = 0.0;
   double high = 0.0;
@@ -30,14 +30,14 @@ Calibration calibrate(const std::vector<JudgedAnswer>& answers);
 /// All runs of one method in one world.
 struct Summary {
   std::size_t runs = 0;
-  Rate initialised;    ///< a hypothesis within 3.0 m, of all runs
+  Rate initialised;        ///< a hypothesis within 3.0 m, of all runs
   Rate initialised_first;  ///< the most probable hypothesis within 3.0 m
-  Rate answered;       ///< a pose was given at all
-  Rate success;        ///< RunEvaluation::succeeded()
-  Rate tight_success;  ///< ... and the first pose was within the tight bound
-  Rate final_success;  ///< the run's last estimate had a right pose
+  Rate answered;           ///< a pose was given at all
+  Rate success;            ///< RunEvaluation::succeeded()
+  Rate tight_success;      ///< ... and the first pose was within the tight bound
+  Rate final_success;      ///< the run's last estimate had a right pose
   Rate final_tight;
-  Rate runs_wrong_at_99;   ///< runs that published any wrong pose at >= 0.99
+  Rate runs_wrong_at_99;  ///< runs that published any wrong pose at >= 0.99
   Rate runs_wrong_at_999;
   Spread initial_error_m;  ///< of the best hypothesis, over the runs that had any
   Spread first_error_m, first_error_yaw_rad;

@@ -15,19 +15,22 @@ enum class IfDropped {
   kKeepPart  ///< what was written so far stays under the temporary name
 };
 
-/// A file that appears under its final name whole or not at all: written as `NAME.part` in the same folder, and on
-/// close() flushed to the disk and renamed. Two writers of one name exclude each other. A target that exists and is
-/// no regular file (/dev/stdout, a pipe) is written to directly; a symbolic link stays one.
+/// A file that appears under its final name whole or not at all: written as `NAME.part` in the same folder,
+/// and on close() flushed to the disk and renamed. Two writers of one name exclude each other. A target that
+/// exists and is no regular file (/dev/stdout, a pipe) is written to directly; a symbolic link stays one.
 class AtomicFile {
  public:
-  static Result<AtomicFile> open(const std::filesystem::path& target, IfDropped if_dropped = IfDropped::kRemove);
+  static Result<AtomicFile> open(const std::filesystem::path& target,
+                                 IfDropped if_dropped = IfDropped::kRemove);
   AtomicFile(AtomicFile&&) noexcept;
   AtomicFile& operator=(AtomicFile&&) noexcept;
   ~AtomicFile();
 
-  /// Adds bytes at the end, through a buffer. Errors: a full disk. After an error the file cannot be closed well.
+  /// Adds bytes at the end, through a buffer. Errors: a full disk. After an error the file cannot be closed
+  /// well.
   Result<void> write(std::string_view bytes);
-  /// Hands the buffer to the operating system, so that the bytes survive this program's end (not a power cut).
+  /// Hands the buffer to the operating system, so that the bytes survive this program's end (not a power
+  /// cut).
   Result<void> flush();
   /// Makes the file appear under its final name. Nothing may be written afterwards.
   Result<void> close();

@@ -9,19 +9,22 @@
 
 namespace mstsl::io {
 
-/// Writes a field map as one NetCDF-4 file after the CF conventions 1.8, atomically; the same map gives the same bytes.
+/// Writes a field map as one NetCDF-4 file after the CF conventions 1.8, atomically; the same map gives the
+/// same bytes.
 ///
-/// Coordinates x, y (m): cell centres in the map frame, or, where the grid is turned, in the grid's own frame (its
-/// pose is in the attributes grid_origin_x_m, grid_origin_y_m, grid_yaw_rad). Variables over (y, x): bx, by, bz (uT),
-/// bx_variance, by_variance, bz_variance (uT2), NaN where unknown, and supported (0 or 1); over (fingerprint): fp_x,
-/// fp_y (m), fp_bx, fp_by, fp_bz (uT). Global attributes: model, height_m, resolution_m, hyperparameter_NAME for each
-/// hyper-parameter, provenance.
+/// Coordinates x, y (m): cell centres in the map frame, or, where the grid is turned, in the grid's own frame
+/// (its pose is in the attributes grid_origin_x_m, grid_origin_y_m, grid_yaw_rad). Variables over (y, x): bx,
+/// by, bz (uT), bx_variance, by_variance, bz_variance (uT2), NaN where unknown, and supported (0 or 1); over
+/// (fingerprint): fp_x, fp_y (m), fp_bx, fp_by, fp_bz (uT). Global attributes: model, height_m, resolution_m,
+/// hyperparameter_NAME for each hyper-parameter, provenance.
 ///
-/// Errors: a full disk; a map that read_field_map() would refuse (sizes that do not fit, half-finite cells, ...).
+/// Errors: a full disk; a map that read_field_map() would refuse (sizes that do not fit, half-finite cells,
+/// ...).
 Result<void> write_field_map(const FieldMap& map, const std::filesystem::path& file);
 
-/// Reads what write_field_map() writes, also after xarray or nco went over it. Every dimension, type, unit and value
-/// is checked. Errors: a file that is absent, no NetCDF, cut off, lacks a variable, or has it in other units.
+/// Reads what write_field_map() writes, also after xarray or nco went over it. Every dimension, type, unit
+/// and value is checked. Errors: a file that is absent, no NetCDF, cut off, lacks a variable, or has it in
+/// other units.
 Result<FieldMap> read_field_map(const std::filesystem::path& file);
 
 /// The same from and to memory; `name` stands for the file in errors.

@@ -8,7 +8,8 @@
 
 namespace mstsl::io {
 
-/// The whole content of a file. Errors: a file that is absent, a folder, unreadable, or larger than `limit_bytes`.
+/// The whole content of a file. Errors: a file that is absent, a folder, unreadable, or larger than
+/// `limit_bytes`.
 Result<std::string> read_file(const std::filesystem::path& file, std::size_t limit_bytes);
 
 }  // namespace mstsl::io

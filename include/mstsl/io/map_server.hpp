@@ -19,14 +19,14 @@ struct MapFile {
 /// Reads a ROS map_server map: a yaml with `image` (PGM, PNG or BMP; relative to the yaml), `resolution` (m),
 /// `origin` [x, y, yaw] (m, rad), `negate`, `occupied_thresh`, `free_thresh` and optionally `mode`.
 ///
-/// A pixel's occupancy is (255 - v) / 255, or v / 255 with `negate`, v being the mean over its channels; above
-/// occupied_thresh it is occupied, below free_thresh free, else unknown. As in map_server and nav2_map_server, alpha
-/// counts as a channel in mode trinary, and a pixel not opaque is unknown in mode scale; mode raw holds percents,
-/// 0 to 100, else unknown. What scale and raw have between the thresholds becomes unknown, with a warning.
-/// The image's top row is the grid's last.
+/// A pixel's occupancy is (255 - v) / 255, or v / 255 with `negate`, v being the mean over its channels;
+/// above occupied_thresh it is occupied, below free_thresh free, else unknown. As in map_server and
+/// nav2_map_server, alpha counts as a channel in mode trinary, and a pixel not opaque is unknown in mode
+/// scale; mode raw holds percents, 0 to 100, else unknown. What scale and raw have between the thresholds
+/// becomes unknown, with a warning. The image's top row is the grid's last.
 ///
-/// Errors: files that are absent or cut off; keys that are missing or of another type; a resolution that is not
-/// positive; sizes that no map has; a map without a free cell.
+/// Errors: files that are absent or cut off; keys that are missing or of another type; a resolution that is
+/// not positive; sizes that no map has; a map without a free cell.
 Result<MapFile> read_map_file(const std::filesystem::path& yaml);
 
 /// The grid of `read_map_file`.

@@ -31,7 +31,7 @@ struct LidarStageOptions {
   /// reaches the next look-alike.
   double min_sigma_m = 0.3;
   double max_sigma_m = 1.0;
-  OdometryErrors odometry;
+  OdometryNoise odometry;
   LocalMapOptions local_map;
   SubmapMatchOptions match;
   /// The paper's S below which a hypothesis is false.
@@ -84,8 +84,8 @@ class LidarStage {
   double driven_m() const { return driven_m_; }
   bool all_rejected() const;
 
-  /// The share of each hypothesis, in their order: Eq. 1's product, normalised over those left and over "none
-  /// of these", which keeps the rest up to 1. Removed ones have 0.
+  /// The probability of each hypothesis, in their order: Eq. 1's product, normalised over those left and "none of
+  /// these", and never more than LidarStageOptions::max_probability together. Removed ones have 0.
   std::vector<double> weights() const;
 
   struct Answer {

@@ -13,7 +13,7 @@
 namespace mstsl {
 
 struct TrackerOptions {
-  OdometryErrors odometry;
+  OdometryNoise odometry;
   /// Added at each scan, as standard deviations: the errors of the map's cells and of the scan's timing.
   double sigma_floor_m = 0.01;
   double sigma_floor_rad = 0.003;

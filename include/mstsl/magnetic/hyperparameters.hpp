@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,5 +23,8 @@ std::map<std::string, double> to_named(const FieldHyperparameters& hyperparamete
 
 /// Whether all are finite, the scales positive: what a regression can work with.
 bool is_valid(const FieldHyperparameters& hyperparameters);
+
+/// Components in groups of the same length scale and noise ratio: each group needs one factorisation only.
+std::vector<std::vector<int>> components_by_covariance(const FieldHyperparameters& hyperparameters);
 
 }  // namespace mstsl

@@ -40,10 +40,15 @@ struct LocalMapOptions {
   /// them.
   double spacing_m = 0.10;
   std::size_t max_points = 250;
-  OdometryNoise odometry;
-  BeamModel beams;
-  LikelihoodOptions likelihood;
-  RefineOptions refine;
+  /// A return farther than this from both its neighbours (m), as on a wall seen at a grazing angle, is not
+  /// used: the dots that it would draw move along with the robot and hold the next scan back.
+  double max_gap_m = 0.25;
+  OdometryNoise odometry = {};
+  BeamModel beams = {};
+  /// Narrower than against the global map, and each point counts: a scan and the map drawn of the same walls
+  /// a moment ago share no errors but the cells'.
+  LikelihoodOptions likelihood = {.sigma_m = 0.075};
+  RefineOptions refine = {.points_per_error = 1.0};
 };
 
 /// The paper's local map M_L,k: each incoming scan is aligned with the map drawn so far, from odometry's
@@ -60,9 +65,8 @@ class LocalMap {
   void insert(const std::vector<BeamReturn>& returns_base, const Pose2& last_T_base);
 
   bool empty() const { return !has_scan_; }
-  /// Where the base is, in the local frame, and with what covariance (x, y, yaw).
+  /// Where the base is, in the local frame.
   const Pose2& local_T_base() const { return local_T_base_; }
-  const Eigen::Matrix3d& covariance() const { return covariance_; }
 
   /// Points on the walls drawn so far, thinned; whatever beams have since passed through (people) is left
   /// out.
@@ -77,13 +81,15 @@ class LocalMap {
   void align(const PointSet& points_base, const Pose2& last_T_base);
   void draw(const std::vector<BeamReturn>& returns_base, const PointSet& points_base);
   bool has_moved_since_drawn() const;
+  PointSet points_over_drawn(const PointSet& points_base, const Pose2& local_T_base) const;
 
   LocalMapOptions options_;
   LogOddsGrid drawn_;
   LikelihoodField field_;
   PointSet points_local_;
   Pose2 local_T_base_;
-  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d covariance_ =
+      Eigen::Matrix3d::Zero();  ///< of the alignment alone; it does not see the map drift
   Pose2 local_T_drawn_;
   bool has_scan_ = false;
 };

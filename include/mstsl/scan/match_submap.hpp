@@ -28,9 +28,9 @@ struct SubmapMatchOptions {
   double window_sigmas = 3.0;  ///< the paper's search within 3 sigma of the hypothesis
   /// No more of the local map's points than this are matched, spread over all of it.
   std::size_t max_points = 400;
-  PoseSearchOptions search;
-  RefineOptions refine;
-  ScoreOptions score;
+  PoseSearchOptions search = {};
+  RefineOptions refine = {};
+  ScoreOptions score = {};
 };
 
 struct SubmapMatch {

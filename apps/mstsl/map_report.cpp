@@ -1,0 +1,136 @@
+#include "map_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace mstsl::app {
+namespace {
+
+std::string three(const Eigen::Array3d& v, const char* unit) {
+  return fmt::format("{:.2f} {:.2f} {:.2f}{}", v(0), v(1), v(2), unit);
+}
+
+std::array<double, 3> list(const Eigen::Array3d& v) { return {v(0), v(1), v(2)}; }
+
+/// What became of the field readings, for those that were not used.
+std::array<std::pair<const char*, std::uint64_t>, 6> dropped(const CollectionReport& r) {
+  return {{{"field readings not finite", r.not_finite},
+           {"field readings out of order", r.out_of_order},
+           {"field readings without a pose", r.without_pose},
+           {"field readings in a gap of the poses", r.in_pose_gap},
+           {"field readings at a jump of the pose", r.at_pose_jump},
+           {"poses not finite or out of order", r.bad_poses}}};
+}
+
+struct Cells {
+  std::size_t valued = 0, supported = 0;
+};
+Cells count_cells(const FieldMap& map) {
+  Cells cells;
+  for (std::size_t i = 0; i < map.geometry.size(); ++i) {
+    cells.valued += map.has_value(map.geometry.cell(i)) ? 1 : 0;
+    cells.supported += map.supported[i];
+  }
+  return cells;
+}
+
+std::string score_line(const char* what, const HeldOutScore& before, const HeldOutScore& after) {
+  return fmt::format(
+      "  {}: rms {}, within 1 sigma {:.0f} {:.0f} {:.0f} %, within 2 sigma {:.0f} {:.0f} {:.0f} % "
+      "(uncalibrated {:.0f} "
+      "{:.0f} {:.0f} and {:.0f} {:.0f} {:.0f} %); {} fingerprints\n",
+      what, three(after.rms_uT, " uT"), 100 * after.within_1_sigma(0), 100 * after.within_1_sigma(1),
+      100 * after.within_1_sigma(2), 100 * after.within_2_sigma(0), 100 * after.within_2_sigma(1),
+      100 * after.within_2_sigma(2), 100 * before.within_1_sigma(0), 100 * before.within_1_sigma(1),
+      100 * before.within_1_sigma(2), 100 * before.within_2_sigma(0), 100 * before.within_2_sigma(1),
+      100 * before.within_2_sigma(2), after.errors);
+}
+
+std::string bias_text(const SurveyAnalysis& analysis) {
+  std::string text;
+  for (std::size_t s = 0; s < analysis.bias.sessions.size(); ++s) {
+    const SessionBias& bias = analysis.bias.sessions[s];
+    text += fmt::format("bias of log {} in base_link, x y: {:.2f} {:.2f} +- {:.2f} {:.2f} uT, {}{}\n", s + 1,
+                        bias.base_bias_uT.x(), bias.base_bias_uT.y(), bias.sd_uT.x(), bias.sd_uT.y(),
+                        bias.significant ? "significant" : "not significant",
+                        analysis.bias_removed ? ", removed" : ", left in");
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const HeldOutScore& score) {
+  return {{"fingerprints", score.errors},
+          {"rms_uT", list(score.rms_uT)},
+          {"within_1_sigma", list(score.within_1_sigma)},
+          {"within_2_sigma", list(score.within_2_sigma)}};
+}
+
+nlohmann::ordered_json bias_json(const SurveyAnalysis& analysis) {
+  nlohmann::ordered_json sessions = nlohmann::ordered_json::array();
+  for (const SessionBias& bias : analysis.bias.sessions)
+    sessions.push_back({{"base_bias_uT", list(bias.base_bias_uT.array())},
+                        {"sd_uT", list(bias.sd_uT.array())},
+                        {"significant", bias.significant}});
+  return {{"pairs", analysis.bias.pairs}, {"removed", analysis.bias_removed}, {"logs", sessions}};
+}
+
+}  // namespace
+
+std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analysis, const FieldMap& map) {
+  const FieldHyperparameters& h = analysis.hyperparameters.values;
+  const Cells cells = count_cells(map);
+  std::string text = fmt::format("{} fingerprints from {} field readings, {} outliers dropped\n",
+                                 logs.fingerprints.size(), logs.collected.readings, analysis.outliers);
+  for (const auto& [what, count] : dropped(logs.collected))
+    if (count > 0) text += fmt::format("  {}: {}\n", what, count);
+  for (const auto& [what, count] : logs.problems) text += fmt::format("  {}: {}\n", what, count);
+  text += bias_text(analysis);
+  text += fmt::format(
+      "length scale {:.2f} m; x y z: mean {}, signal {}, noise {} (from {} fingerprints in {} blocks)\n",
+      h.length_scale_m(0), three(h.mean_uT, " uT"), three(h.signal_sd_uT, " uT"), three(h.noise_sd_uT, " uT"),
+      analysis.hyperparameters.samples, analysis.hyperparameters.blocks);
+  if (analysis.model == FieldModel::kBilinear)
+    text += fmt::format("lattice of {:.2f} m\n", analysis.bilinear_spacing_m);
+  text += "held-out lanes, x y z:\n";
+  text +=
+      score_line("over the same floor", analysis.held_out.same_floor_before, analysis.held_out.same_floor);
+  text +=
+      score_line("between lanes", analysis.held_out.between_lanes_before, analysis.held_out.between_lanes);
+  text += fmt::format("a later reading differs by {} where the map is sure\n",
+                      three(analysis.calibration.reading_sd_uT, " uT"));
+  text += fmt::format("{} x {} cells of {} m, {} with a value, {} near a fingerprint\n", map.geometry.columns,
+                      map.geometry.rows, map.geometry.resolution_m, cells.valued, cells.supported);
+  return text;
+}
+
+std::string map_report_json(const SurveyLogs& logs, const SurveyAnalysis& analysis, const FieldMap& map) {
+  const Cells cells = count_cells(map);
+  nlohmann::ordered_json json{{"model", to_string(map.model)},
+                              {"fingerprints", logs.fingerprints.size()},
+                              {"field_readings", logs.collected.readings},
+                              {"outliers", analysis.outliers}};
+  for (const auto& [what, count] : dropped(logs.collected)) json["problems"][what] = count;
+  for (const auto& [what, count] : logs.problems) json["problems"][what] = count;
+  json["bias"] = bias_json(analysis);
+  json["hyperparameters"] = map.hyperparameters;
+  json["learned_from"] = {{"fingerprints", analysis.hyperparameters.samples},
+                          {"blocks", analysis.hyperparameters.blocks}};
+  json["held_out"] = {{"same_floor", to_json(analysis.held_out.same_floor)},
+                      {"same_floor_uncalibrated", to_json(analysis.held_out.same_floor_before)},
+                      {"between_lanes", to_json(analysis.held_out.between_lanes)},
+                      {"between_lanes_uncalibrated", to_json(analysis.held_out.between_lanes_before)}};
+  json["cells"] = {{"columns", map.geometry.columns},
+                   {"rows", map.geometry.rows},
+                   {"resolution_m", map.geometry.resolution_m},
+                   {"with_value", cells.valued},
+                   {"supported", cells.supported}};
+  json["warnings"] = analysis.warnings;
+  return json.dump() + "\n";
+}
+
+}  // namespace mstsl::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mstsl/core/result.hpp"
+#include "mstsl/io/recording.hpp"
+#include "mstsl/magnetic/fingerprint_collector.hpp"
+
+#include "session.hpp"
+
+namespace mstsl::app {
+
+/// What the logs of a survey gave.
+struct SurveyLogs {
+  std::vector<Fingerprint> fingerprints;
+  CollectionReport collected;
+  std::map<std::string, std::uint64_t> problems;  ///< of reading, by kind
+  std::vector<std::string> warnings;
+  double magnetometer_height_m = 0.0;
+};
+
+/// Plays the logs, one session each, and collects their fingerprints. Errors: a log that cannot be read, an
+/// interrupt.
+Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::filesystem::path>& logs,
+                               const io::PlayOptions& play);
+
+}  // namespace mstsl::app

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "mstsl/io/recording.hpp"
+
+namespace mstsl::app {
+
+/// Adds --scan-topic, --field-topic, --odometry-topic, --tf-topic and --base-frame to a subcommand that reads
+/// logs.
+void add_topic_options(CLI::App& command, io::PlayOptions& options);
+
+}  // namespace mstsl::app

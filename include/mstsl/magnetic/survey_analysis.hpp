@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mstsl/core/parallel.hpp"
+#include "mstsl/core/result.hpp"
+#include "mstsl/magnetic/cross_validation.hpp"
+#include "mstsl/magnetic/field_map.hpp"
+#include "mstsl/magnetic/fingerprint.hpp"
+#include "mstsl/magnetic/hyperparameters.hpp"
+#include "mstsl/magnetic/learn_hyperparameters.hpp"
+#include "mstsl/magnetic/outliers.hpp"
+#include "mstsl/magnetic/survey_bias.hpp"
+
+namespace mstsl {
+
+/// Whether a bias found in the survey is taken from its fingerprints.
+enum class BiasRemoval { kWhenSignificant, kAlways, kNever };
+
+struct SurveyAnalysisOptions {
+  OutlierOptions outliers;
+  SurveyBiasOptions bias;
+  BiasRemoval bias_removal = BiasRemoval::kWhenSignificant;
+  /// What the GPR assumes; learned from the fingerprints where absent.
+  std::optional<FieldHyperparameters> hyperparameters;
+  LearningOptions learning;
+  /// Distance of the bilinear model's lattice nodes, in m; that of the lanes where absent.
+  std::optional<double> bilinear_spacing_m;
+  /// Whether the map's variance is corrected to what held-out lanes show. Otherwise it is the regression's
+  /// own, with the noise of its fingerprints.
+  bool calibrate_variance = true;
+  Threads threads;
+};
+
+/// Held-out lanes, predicted twice: with the passes of other lanes that lie close by (what a second drive
+/// over the same floor would find), and without anything within about half a length scale (what lies between
+/// lanes).
+struct HeldOutReport {
+  HeldOutScore same_floor_before, same_floor;        ///< with the variance before and after calibration
+  HeldOutScore between_lanes_before, between_lanes;  ///< the same
+};
+
+/// A survey made ready for a map: cleaned, its bias removed, its statistics learned and checked.
+struct SurveyAnalysis {
+  FieldModel model = FieldModel::kGpr;
+  std::vector<Fingerprint> fingerprints;  ///< what is left to build from
+  std::size_t outliers = 0;               ///< dropped
+  SurveyBias bias;
+  bool bias_removed = false;
+  LearnedHyperparameters hyperparameters;
+  double bilinear_spacing_m = 0.0;
+  HeldOutReport held_out;
+  VarianceCalibration calibration;  ///< from the model's variance to that of a later reading
+  std::vector<std::string> warnings;
+};
+
+/// The furthest that the fingerprint model looks for a fingerprint, in m: half the widest lane distance in
+/// use (1 m).
+inline constexpr double kFingerprintReach_m = 0.5;
+
+/// Errors: too few fingerprints, values that are not finite or no field found on Earth, hyper-parameters that
+/// are no such.
+Result<SurveyAnalysis> analyse_survey(std::span<const Fingerprint> fingerprints, FieldModel model,
+                                      const SurveyAnalysisOptions& options = {});
+
+}  // namespace mstsl

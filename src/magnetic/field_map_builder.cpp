@@ -1,0 +1,86 @@
+#include "mstsl/magnetic/field_map_builder.hpp"
+
+#include <limits>
+#include <string>
+
+#include "field_area.hpp"
+#include "field_models.hpp"
+
+namespace mstsl {
+namespace {
+
+/// How far a fingerprint vouches for the model's field.
+double support_m(const SurveyAnalysis& survey) {
+  switch (survey.model) {
+    case FieldModel::kBilinear:
+      return survey.bilinear_spacing_m;
+    case FieldModel::kFingerprint:
+      return kFingerprintReach_m;
+    case FieldModel::kGpr:
+      break;
+  }
+  return survey.hyperparameters.values.length_scale_m.minCoeff();
+}
+
+void describe(const SurveyAnalysis& survey, FieldMap& map) {
+  if (survey.model == FieldModel::kGpr) map.hyperparameters = to_named(survey.hyperparameters.values);
+  if (survey.model == FieldModel::kBilinear)
+    map.hyperparameters["lattice_spacing_m"] = survey.bilinear_spacing_m;
+  const auto put = [&](const std::string& name, const Eigen::Array3d& values, const std::string& unit) {
+    for (int c = 0; c < 3; ++c) map.hyperparameters[name + "_" + "xyz"[c] + unit] = values(c);
+  };
+  put("reading_sd", survey.calibration.reading_sd_uT, "_uT");
+  if (survey.model == FieldModel::kGpr) put("variance_factor", survey.calibration.factor, "");
+  const HeldOutScore& held_out = survey.held_out.same_floor;
+  if (held_out.errors == 0) return;
+  put("held_out_rms", held_out.rms_uT, "_uT");
+  put("held_out_within_1_sigma", held_out.within_1_sigma, "");
+  put("held_out_within_2_sigma", held_out.within_2_sigma, "");
+}
+
+}  // namespace
+
+Result<FieldMap> build_field_map(const SurveyAnalysis& survey, const OccupancyGrid* area_grid,
+                                 const FieldMapOptions& options) {
+  const double far_m =
+      std::max(kPriorBeyond * survey.hyperparameters.values.length_scale_m.maxCoeff(), support_m(survey)) +
+      options.resolution_m;
+  const auto area =
+      make_field_area(survey.fingerprints, area_grid, options.resolution_m, options.reach_m, far_m);
+  if (!area) return area.error();
+  FieldMap map;
+  map.model = survey.model;
+  map.geometry = area->geometry;
+  map.fingerprints = survey.fingerprints;
+  const Eigen::Vector3f nothing = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  map.mean_uT.assign(map.geometry.size(), nothing);
+  map.variance_uT2.assign(map.geometry.size(), nothing);
+  map.supported.assign(map.geometry.size(), 0);
+  switch (survey.model) {
+    case FieldModel::kGpr:
+      fill_by_gpr(survey, *area, {options.quality, options.threads, options.progress}, map);
+      break;
+    case FieldModel::kBilinear:
+      fill_by_bilinear(survey, *area, map);
+      break;
+    case FieldModel::kFingerprint:
+      fill_by_fingerprint(survey, *area, map);
+      break;
+  }
+  for (std::size_t i = 0; i < map.supported.size(); ++i)
+    map.supported[i] =
+        map.has_value(map.geometry.cell(i)) && static_cast<double>(area->distance_m[i]) <= support_m(survey);
+  describe(survey, map);
+  return map;
+}
+
+Result<FieldMap> build_field_map(std::span<const Fingerprint> fingerprints, const OccupancyGrid* area,
+                                 const FieldMapOptions& options) {
+  SurveyAnalysisOptions analysis = options.analysis;
+  analysis.threads = options.threads;
+  const auto survey = analyse_survey(fingerprints, options.model, analysis);
+  if (!survey) return survey.error();
+  return build_field_map(*survey, area, options);
+}
+
+}  // namespace mstsl

@@ -1,0 +1,205 @@
+#include "mstsl/magnetic/learn_hyperparameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "mstsl/magnetic/gaussian_process.hpp"
+#include "mstsl/magnetic/tile_regression.hpp"
+
+#include "maximise.hpp"
+#include "point_bins.hpp"
+
+namespace mstsl {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+constexpr std::size_t kFewestFingerprints = 20;
+constexpr std::size_t kFewestInBlock = 40;
+
+/// Log-normal prior of one parameter, and the range in which it is looked for.
+struct Prior {
+  double median, log_sd, low, high;
+};
+// The field's correlation falls to one half at 0.4-3 m in real buildings; a squared exponential's does so
+// at 1.18 l.
+constexpr Prior kLengthScale_m{0.8, 0.8, 0.1, 6.0};
+// Sensor noise 0.05-0.5 uT and position errors of 1 cm, on a field of 5-13 uT.
+constexpr Prior kNoiseRatio{0.1, 1.2, TileRegression::kMinNoiseRatio, 2.0};
+
+struct Block {
+  std::vector<Vector2d> points_m;
+  MatrixXd values;  ///< standardised, points x 3
+};
+
+/// Standard deviation of each component over the surveyed area, every half metre counting once.
+struct Moments {
+  Eigen::Array3d mean, sd;
+};
+Moments moments_over_area(std::span<const Fingerprint> fingerprints, const std::vector<Vector2d>& points) {
+  constexpr double kBin_m = 0.5;
+  std::vector<Eigen::Array3d> means;
+  for (const auto& bin : PointBins(points, kBin_m).occupied()) {
+    Eigen::Array3d sum = Eigen::Array3d::Zero();
+    for (const std::size_t i : bin) sum += fingerprints[i].field_uT.array();
+    means.push_back(sum / static_cast<double>(bin.size()));
+  }
+  const auto n = static_cast<double>(means.size());
+  Eigen::Array3d mean = Eigen::Array3d::Zero(), variance = Eigen::Array3d::Zero();
+  for (const auto& m : means) mean += m / n;
+  for (const auto& m : means) variance += (m - mean).square() / std::max(n - 1.0, 1.0);
+  constexpr double kLeast_uT = 0.05;  // a perfectly flat field: the quietest sensor's noise
+  return {mean, variance.sqrt().max(kLeast_uT)};
+}
+
+/// Blocks of the given side, spread evenly over those that hold enough samples.
+std::vector<Block> choose_blocks(std::span<const Fingerprint> fingerprints,
+                                 const std::vector<Vector2d>& points, const Moments& moments, double side_m,
+                                 const LearningOptions& options) {
+  auto squares = PointBins(points, side_m).occupied();
+  const auto fewest = std::min(kFewestInBlock, fingerprints.size() / 2);
+  std::erase_if(squares, [&](const auto& square) { return square.size() < fewest; });
+  const std::size_t count = std::min(options.blocks, squares.size());
+  std::vector<Block> blocks(count);
+  for (std::size_t b = 0; b < count; ++b) {
+    const auto& square = squares[b * squares.size() / count];
+    const std::size_t stride = (square.size() + options.samples_per_block - 1) / options.samples_per_block;
+    std::vector<std::size_t> chosen;
+    // Neighbours on a lane stay together in pairs: they tell noise from a rough field.
+    for (std::size_t k = 0; k < square.size(); ++k)
+      if ((k / 2) % stride == 0) chosen.push_back(square[k]);
+    blocks[b].values.resize(static_cast<Eigen::Index>(chosen.size()), 3);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      blocks[b].points_m.push_back(points[chosen[k]]);
+      blocks[b].values.row(static_cast<Eigen::Index>(k)) =
+          ((fingerprints[chosen[k]].field_uT.array() - moments.mean) / moments.sd).transpose();
+    }
+  }
+  return blocks;
+}
+
+using Kernel = Sum<SquaredExponential, WhiteNoise>;
+
+Kernel kernel_of(const VectorXd& logs) {
+  return SquaredExponential{1.0, std::exp(logs(0))} + WhiteNoise{std::exp(logs(1))};
+}
+
+void add_prior(const Prior& prior, int parameter, const VectorXd& logs, Objective& objective) {
+  const double z = (logs(parameter) - std::log(prior.median)) / prior.log_sd;
+  objective.value -= 0.5 * z * z;
+  objective.gradient(parameter) -= z / prior.log_sd;
+}
+
+/// Log posterior of (log length scale, log noise ratio), blocks in parallel, summed in their order.
+Objective log_posterior(const std::vector<Block>& blocks, const VectorXd& logs, Threads threads) {
+  std::vector<Objective> parts(blocks.size());
+  parallel_for(blocks.size(), threads, [&](std::size_t b) {
+    const auto part = log_marginal_likelihood(kernel_of(logs), blocks[b].points_m, blocks[b].values, true);
+    parts[b].value = part ? part->value : std::numeric_limits<double>::quiet_NaN();
+    parts[b].gradient =
+        part ? VectorXd{{part->by_log_parameter[1], part->by_log_parameter[2]}} : VectorXd::Zero(2);
+  });
+  Objective sum{0.0, VectorXd::Zero(2)};
+  for (const Objective& part : parts) {
+    sum.value += part.value;
+    sum.gradient += part.gradient;
+  }
+  add_prior(kLengthScale_m, 0, logs, sum);
+  add_prior(kNoiseRatio, 1, logs, sum);
+  return sum;
+}
+
+/// The best of a short and a long start: along lanes the likelihood may have two maxima.
+Maximum search(const std::vector<Block>& blocks, Threads threads) {
+  const VectorXd low{{std::log(kLengthScale_m.low), std::log(kNoiseRatio.low)}};
+  const VectorXd high{{std::log(kLengthScale_m.high), std::log(kNoiseRatio.high)}};
+  const auto objective = [&](const VectorXd& logs) { return log_posterior(blocks, logs, threads); };
+  Maximum best{VectorXd{{std::log(kLengthScale_m.median), std::log(kNoiseRatio.median)}},
+               -std::numeric_limits<double>::infinity()};
+  for (const double length_scale_m : {0.4, 1.2}) {
+    const Maximum found = maximise(objective, VectorXd{{std::log(length_scale_m), std::log(0.1)}}, low, high);
+    if (found.value > best.value) best = found;
+  }
+  return best;
+}
+
+/// Generalised least squares over all blocks: fingerprints that say the same count once.
+Eigen::Array3d learn_mean(const std::vector<Block>& blocks, const Kernel& kernel, const Moments& moments) {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  double weight = 0.0;
+  for (const Block& block : blocks) {
+    const auto n = static_cast<Eigen::Index>(block.points_m.size());
+    MatrixXd with_ones(n, 4);
+    with_ones << block.values, VectorXd::Ones(n);
+    const auto system = GaussianSystem::make(covariance_matrix(kernel, block.points_m), with_ones, false);
+    if (!system) continue;
+    sum += system->weights().leftCols<3>().colwise().sum().transpose().array();
+    weight += system->weights().col(3).sum();
+  }
+  return weight > 0.0 ? Eigen::Array3d(moments.mean + moments.sd * sum / weight) : moments.mean;
+}
+
+std::vector<std::string> doubts(const LearnedHyperparameters& learned, const Moments& moments) {
+  std::vector<std::string> warnings;
+  const double l = learned.values.length_scale_m(0);
+  if (l < 1.05 * kLengthScale_m.low || l > 0.95 * kLengthScale_m.high)
+    warnings.push_back(fmt::format(
+        "the length scale came out at {:.2f} m, the end of what is looked for; the survey cannot tell it",
+        l));
+  if (learned.samples < 100)
+    warnings.push_back(fmt::format(
+        "only {} fingerprints to learn from: length scale and noise rest on what other buildings show",
+        learned.samples));
+  if (moments.sd.maxCoeff() < 0.2)
+    warnings.push_back(fmt::format(
+        "the field varies by {:.2f} uT only: nothing here tells places apart, or its unit is wrong",
+        moments.sd.maxCoeff()));
+  return warnings;
+}
+
+}  // namespace
+
+Result<LearnedHyperparameters> learn_hyperparameters(std::span<const Fingerprint> fingerprints,
+                                                     const LearningOptions& options) {
+  if (fingerprints.size() < kFewestFingerprints)
+    return Error(fmt::format(
+        "{} fingerprints are too few to learn a field from, {} is the least; drive a longer survey",
+        fingerprints.size(), kFewestFingerprints));
+  std::vector<Vector2d> points;
+  for (const Fingerprint& f : fingerprints) {
+    if (!f.position_m.allFinite() || !f.field_uT.allFinite())
+      return Error("a fingerprint holds a value that is not finite");
+    points.push_back(f.position_m);
+  }
+  const Moments moments = moments_over_area(fingerprints, points);
+  double side_m = options.block_side * kLengthScale_m.median;
+  std::vector<Block> blocks;
+  Maximum best;
+  constexpr int kRounds = 3;  // the length scale decides the blocks that it is learned from
+  for (int round = 0; round < kRounds; ++round) {
+    blocks = choose_blocks(fingerprints, points, moments, side_m, options);
+    best = search(blocks, options.threads);
+    const double wanted_m = options.block_side * std::exp(best.at(0));
+    if (wanted_m <= 1.1 * side_m) break;
+    side_m = 1.1 * wanted_m;
+  }
+  LearnedHyperparameters learned;
+  const Kernel kernel = kernel_of(best.at);
+  learned.values.signal_sd_uT = moments.sd;
+  learned.values.length_scale_m = Eigen::Array3d::Constant(std::exp(best.at(0)));
+  learned.values.noise_sd_uT = moments.sd * std::exp(best.at(1));
+  learned.values.mean_uT = learn_mean(blocks, kernel, moments);
+  learned.blocks = blocks.size();
+  for (const Block& block : blocks) learned.samples += block.points_m.size();
+  learned.log_likelihood_per_sample =
+      best.value / static_cast<double>(std::max<std::size_t>(learned.samples, 1));
+  learned.warnings = doubts(learned, moments);
+  return learned;
+}
+
+}  // namespace mstsl

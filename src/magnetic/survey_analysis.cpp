@@ -1,0 +1,133 @@
+#include "mstsl/magnetic/survey_analysis.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mstsl/magnetic/predictors.hpp"
+#include "mstsl/magnetic/tile_regression.hpp"
+
+#include "bilinear_lattice.hpp"
+
+namespace mstsl {
+namespace {
+
+using Eigen::Array3d;
+
+std::optional<Error> refusal(std::span<const Fingerprint> fingerprints) {
+  if (fingerprints.empty())
+    return Error("the survey holds no fingerprint; are the pose and field topics the right ones?");
+  constexpr double kMaxCoordinate_m = 1e7;  // larger ones lose the millimetre
+  for (std::size_t i = 0; i < fingerprints.size(); ++i) {
+    const Fingerprint& f = fingerprints[i];
+    if (!f.position_m.allFinite() || !f.field_uT.allFinite() || !std::isfinite(f.heading_rad))
+      return Error(fmt::format("fingerprint {} holds a value that is not finite", i));
+    if (f.position_m.cwiseAbs().maxCoeff() > kMaxCoordinate_m)
+      return Error(fmt::format("fingerprint {} lies at ({:g}, {:g}) m, further out than {:g} m", i,
+                               f.position_m.x(), f.position_m.y(), kMaxCoordinate_m));
+    if (f.session < 0) return Error(fmt::format("fingerprint {} belongs to session {}", i, f.session));
+  }
+  return std::nullopt;
+}
+
+void drop_outliers(SurveyAnalysis& analysis, const OutlierOptions& options) {
+  const std::vector<std::size_t> outliers = find_outliers(analysis.fingerprints, options);
+  analysis.outliers = outliers.size();
+  std::vector<Fingerprint> kept;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < analysis.fingerprints.size(); ++i) {
+    if (next < outliers.size() && outliers[next] == i)
+      ++next;
+    else
+      kept.push_back(analysis.fingerprints[i]);
+  }
+  analysis.fingerprints = std::move(kept);
+}
+
+void treat_bias(SurveyAnalysis& analysis, const SurveyAnalysisOptions& options) {
+  analysis.bias = estimate_survey_bias(analysis.fingerprints, options.bias);
+  const bool wanted =
+      options.bias_removal == BiasRemoval::kWhenSignificant && analysis.bias.any_significant();
+  analysis.bias_removed = wanted || options.bias_removal == BiasRemoval::kAlways;
+  if (analysis.bias_removed) remove_bias(analysis.fingerprints, analysis.bias);
+  if (analysis.bias.pairs == 0)
+    analysis.warnings.push_back(
+        "no lane was driven in two directions: a bias of the magnetometer stays in the map, unseen");
+}
+
+Result<LearnedHyperparameters> hyperparameters_for(const SurveyAnalysis& analysis,
+                                                   const SurveyAnalysisOptions& options) {
+  if (!options.hyperparameters) {
+    LearningOptions learning = options.learning;
+    learning.threads = options.threads;
+    return learn_hyperparameters(analysis.fingerprints, learning);
+  }
+  const FieldHyperparameters& given = *options.hyperparameters;
+  if (!is_valid(given))
+    return Error("the hyper-parameters given hold a scale that is not positive and finite");
+  if ((given.noise_sd_uT < TileRegression::kMinNoiseRatio * given.signal_sd_uT).any())
+    return Error(
+        fmt::format("the noise given is below {} % of the signal; the regression cannot resolve that",
+                    100 * TileRegression::kMinNoiseRatio));
+  return LearnedHyperparameters{given, 0, 0, 0.0, {}};
+}
+
+Predictor predictor_for(const SurveyAnalysis& analysis) {
+  switch (analysis.model) {
+    case FieldModel::kBilinear:
+      return bilinear_predictor(analysis.bilinear_spacing_m);
+    case FieldModel::kFingerprint:
+      return nearest_predictor(kFingerprintReach_m);
+    case FieldModel::kGpr:
+      break;
+  }
+  return gpr_predictor(analysis.hyperparameters.values);
+}
+
+/// What lanes left out say of the model, and the calibration that follows.
+void check_by_lane(SurveyAnalysis& analysis, const SurveyAnalysisOptions& options) {
+  const FieldHyperparameters& h = analysis.hyperparameters.values;
+  HoldOutOptions lanes;
+  lanes.length_m = h.length_scale_m.maxCoeff();
+  HoldOutOptions apart = lanes;
+  apart.radius_m =
+      analysis.model == FieldModel::kFingerprint ? 0.5 * kFingerprintReach_m : 0.5 * lanes.length_m;
+  const Predictor predict = predictor_for(analysis);
+  const auto errors_of = [&](const HoldOutOptions& o) {
+    return held_out_errors(analysis.fingerprints, hold_out_lanes(analysis.fingerprints, o), predict,
+                           options.threads);
+  };
+  const std::vector<HeldOutError> same_floor = errors_of(lanes), between = errors_of(apart);
+  std::vector<HeldOutError> all = same_floor;
+  all.insert(all.end(), between.begin(), between.end());
+  const VarianceCalibration before{Array3d::Ones(), h.noise_sd_uT};
+  analysis.calibration = options.calibrate_variance ? calibrate(all, before) : before;
+  analysis.held_out = {score(same_floor, before), score(same_floor, analysis.calibration),
+                       score(between, before), score(between, analysis.calibration)};
+  if (all.empty())
+    analysis.warnings.push_back(
+        "the survey is too short to leave a lane out: the map's variance could not be checked");
+}
+
+}  // namespace
+
+Result<SurveyAnalysis> analyse_survey(std::span<const Fingerprint> fingerprints, FieldModel model,
+                                      const SurveyAnalysisOptions& options) {
+  if (auto error = refusal(fingerprints)) return *error;
+  SurveyAnalysis analysis;
+  analysis.model = model;
+  analysis.fingerprints.assign(fingerprints.begin(), fingerprints.end());
+  drop_outliers(analysis, options.outliers);
+  treat_bias(analysis, options);
+  auto learned = hyperparameters_for(analysis, options);
+  if (!learned) return learned.error();
+  analysis.hyperparameters = std::move(*learned);
+  analysis.bilinear_spacing_m = options.bilinear_spacing_m.value_or(lane_spacing_m(analysis.fingerprints));
+  if (!(analysis.bilinear_spacing_m > 0.0)) return Error("the bilinear lattice needs a positive spacing");
+  const auto& doubts = analysis.hyperparameters.warnings;
+  analysis.warnings.insert(analysis.warnings.end(), doubts.begin(), doubts.end());
+  check_by_lane(analysis, options);
+  return analysis;
+}
+
+}  // namespace mstsl
