@@ -114,7 +114,7 @@ Polygon small_square(const GridGeometry& geometry, Cell cell) {
 
 std::vector<Polygon> occupied_outlines(const OccupancyGrid& map, double tolerance_m) {
   const GridGeometry& geometry = map.geometry();
-  const double tolerance = tolerance_m < 0 ? 0.5 * geometry.resolution_m : tolerance_m;
+  const double tolerance = tolerance_m < 0 ? geometry.resolution_m : tolerance_m;
   Walked walked(geometry);
   std::vector<Polygon> outlines;
   // Every closed boundary has an edge that goes east, so looking for those finds all.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <iterator>
 
 #include "mstsl/core/angles.hpp"
 
@@ -19,11 +20,14 @@ constexpr double kRobot_m = 0.35;       ///< room that the robot's centre needs 
 constexpr double kAligned_m = 0.3;      ///< middles of neighbouring cuts that belong together
 constexpr double kBridge_m = 4.0;       ///< a crossing may interrupt a lane for this long
 constexpr double kShortest_m = 3.0;
+constexpr double kWallNear_m = kRobot_m + 0.15;
+constexpr double kWalledShare = 0.5;    ///< of a lane's cuts; beams that left through a window make free fans, not lanes
 constexpr double kStraight_m = 0.15;    ///< a lane's middles lie within this of a straight line
 
 /// The reachable part of a cut: from low to high across, at a station.
 struct Cut {
   double station_m, low_m, high_m;
+  bool walled = false;  ///< surfaces, not unknown ground, end it on both sides
   double middle() const { return 0.5 * (low_m + high_m); }
   double width() const { return high_m - low_m; }
 };
@@ -56,6 +60,10 @@ bool continues(const Chain& chain, const Cut& cut, const SegmentIndex& walls, co
 
 std::vector<Cut> cuts_at(double station_m, const Eigen::AlignedBox2d& extent, const OccupancyGrid& map, const SegmentIndex& walls,
                          const Pose2& map_T_axis) {
+  const auto is_walled = [&](const Cut& cut) {
+    return walls.clearance(map_T_axis * Vector2d(station_m, cut.low_m), kWallNear_m) < kWallNear_m &&
+           walls.clearance(map_T_axis * Vector2d(station_m, cut.high_m), kWallNear_m) < kWallNear_m;
+  };
   std::vector<Cut> cuts;
   bool inside = false;
   for (double across = extent.min().y(); across <= extent.max().y(); across += kSample_m) {
@@ -64,6 +72,7 @@ std::vector<Cut> cuts_at(double station_m, const Eigen::AlignedBox2d& extent, co
     if (room) cuts.back().high_m = across;
     inside = room;
   }
+  for (Cut& cut : cuts) cut.walled = is_walled(cut);
   return cuts;
 }
 
@@ -83,7 +92,12 @@ void add_straight(const Chain& chain, std::size_t first, std::size_t last, const
     return;
   }
   std::vector<double> widths;
-  for (std::size_t i = first; i <= last; ++i) widths.push_back(chain[i].width());
+  double walled = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    widths.push_back(chain[i].width());
+    walled += chain[i].walled ? 1.0 : 0.0;
+  }
+  if (walled < kWalledShare * static_cast<double>(widths.size())) return;
   std::nth_element(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2), widths.end());
   const double width = widths[widths.size() / 2];
   if (length(line) >= width) lanes.push_back({map_T_axis * line, width + 2.0 * kRobot_m});

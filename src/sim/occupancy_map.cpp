@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "mstsl/grid/ray.hpp"
+
 namespace mstsl::sim {
 namespace {
 
@@ -24,12 +26,11 @@ GridGeometry geometry_of(const World& world, double resolution_m) {
 }
 
 void draw(OccupancyGrid& map, const Segment& segment) {
-  constexpr double kStepsPerCell = 4.0;  // misses at most the tip of a corner
-  const int steps = 1 + static_cast<int>(kStepsPerCell * length(segment) / map.geometry().resolution_m);
-  for (int i = 0; i <= steps; ++i) {
-    const Cell cell = map.geometry().cell_at(point_along(segment, static_cast<double>(i) / steps));
-    if (map.contains(cell)) map[cell] = CellState::kOccupied;
-  }
+  const GridGeometry& geometry = map.geometry();
+  walk_grid(geometry, geometry.to_grid(segment.a), geometry.to_grid(segment.b), [&](Cell cell, double) {
+    map[cell] = CellState::kOccupied;
+    return true;
+  });
 }
 
 /// Marks what can be reached from the lanes inside the footprint as free.

@@ -49,7 +49,7 @@ void furnish_room(WorldPlan& plan, const Pose2& map_T_room, const Pose2& map_T_d
   for (const Segment& piece : box(drawers, {0.42, 0.6})) plan.walls.push_back(piece);
   add_cabinet(plan.steel, drawers, {0.42, 0.6}, 0.6, random);
 
-  const Pose2 hinge = map_T_door * Pose2{0.5 * kDoor_m - 0.03, -kPartition_m - 0.01, radians(-90) + random.normal(0, radians(6))};
+  const Pose2 hinge = map_T_door * Pose2{0.5 * kDoor_m - 0.03, -kPartition_m - 0.01, radians(-90) + random.uniform(radians(-1), radians(25))};
   plan.walls.push_back(hinge * Segment{{0, 0}, {0.88, 0}});
   add_radiator(plan.steel, map_T_room * Pose2{0, 0.5 * depth_m - 0.08, 0}, 1.6, random);
   add_door_frame(plan.steel, map_T_door, kDoor_m, random);
@@ -68,9 +68,11 @@ void add_room(WorldPlan& plan, const Layout& l, int room, double side, Random& r
   for (const Segment& piece : polyline(points, false)) plan.walls.push_back(piece);
   furnish_room(plan, map_T_room, door, l.depth_m, random);
 
-  for (const double along : {-0.25, 0.25})  // cupboards along a side wall, free standing chairs
-    plan.spots.push_back({ThingKind::kCabinet, map_T_room * Pose2{-half, along * l.depth_m, radians(-90)}, 0.5, std::nullopt});
-  plan.spots.push_back({ThingKind::kTrolley, map_T_room * Pose2{0.9, -0.1 * l.depth_m, radians(90)}, 0.5, std::nullopt});
+  // Cupboards along the wall away from the door, and a chair or box that never stands twice in one place.
+  const double away = shift > 0 ? -1.0 : 1.0;
+  for (const double along : {-0.25, 0.25})
+    plan.spots.push_back({ThingKind::kCabinet, map_T_room * Pose2{away * half, along * l.depth_m, away * radians(90)}, 0.5, std::nullopt});
+  plan.spots.push_back({ThingKind::kTrolley, map_T_room * Pose2{away * 0.7, 0.0, radians(90)}, 0.5, std::nullopt});
   plan.lanes.push_back({{door * Vector2d(0, 0.5 * kCorridor_m), door * Vector2d(0, -kPartition_m - 1.6)}, kDoor_m - 0.2});
 }
 

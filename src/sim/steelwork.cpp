@@ -11,13 +11,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Remanence of steel as it is found in buildings, A/m. Rolled and handled steel keeps 0.005 to 0.1 T (4e3 to 8e4 A/m):
+// Remanence of steel as it is found in buildings, A/m. Rolled and handled steel keeps 0.005 to 0.12 T (4e3 to 1e5 A/m):
 // lifting magnets, welding and bending leave the most; saturation would be 1.7e6. Set once so that the field's spread,
 // correlation length and gradients are those of the real recordings (tests/sim/field_statistics_test.cpp).
 constexpr double kBar_A_per_m = 1.2e4;
 constexpr double kSection_A_per_m = 2.2e4;
 constexpr double kSheet_A_per_m = 2.5e4;
-constexpr double kColdFormed_A_per_m = 8e4;
+constexpr double kColdFormed_A_per_m = 9.5e4;
 /// Pieces differ by their history: spread of the logarithm.
 constexpr double kHistorySpread = 0.5;
 

@@ -54,7 +54,7 @@ Thing make_pallet(const Pose2& map_T_spot, Random& random) {
   const Vector2d size(random.uniform(0.7, 0.85), random.uniform(0.9, 1.1));
   const Pose2 at = shifted(map_T_spot, 0.05, radians(2.0), random);
   Thing pallet{box(at, size), {}};
-  constexpr double kSheetGoods = 0.3, kHeavyGoods = 0.1;  // shares; the rest is not magnetic
+  constexpr double kSheetGoods = 0.35, kHeavyGoods = 0.15;  // shares; the rest is not magnetic
   const double goods = random.uniform();
   if (goods < kSheetGoods) add_cabinet(pallet.steel, at, 0.8 * size, random.uniform(0.4, 1.2), random);
   else if (goods < kSheetGoods + kHeavyGoods) add_machine(pallet.steel, at.position(), 0.8, random);

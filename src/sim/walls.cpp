@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mstsl/core/angles.hpp"
 #include "steelwork.hpp"

@@ -16,8 +16,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kClearanceCell_m = 0.1;
-/// Half the width of a slim robot: the ground is what its centre can reach.
-constexpr double kRobotRadius_m = 0.25;
 
 std::vector<Segment> all_surfaces(const WorldPlan& plan) {
   std::vector<Segment> segments = plan.walls;
@@ -59,7 +57,7 @@ Grid<float> clearance_of(const WorldPlan& plan, const SegmentIndex& surfaces) {
     seen[clearance.geometry().index(cell)] = true;
     const Vector2d center = clearance.geometry().center_of(cell);
     const double distance = is_ground(plan, center) ? surfaces.clearance(center, World::kMaxClearance_m) : 0.0;
-    if (distance < kRobotRadius_m) return;
+    if (distance < World::kRobotClearance_m) return;
     clearance[cell] = static_cast<float>(distance);
     open.push_back(cell);
   };
@@ -75,10 +73,26 @@ Grid<float> clearance_of(const WorldPlan& plan, const SegmentIndex& surfaces) {
   return clearance;
 }
 
+Grid<std::uint8_t> lane_cells(const WorldPlan& plan, const Grid<float>& clearance) {
+  Grid<std::uint8_t> on_lane(clearance.geometry(), 0);
+  for (std::size_t i = 0; i < on_lane.values().size(); ++i) {
+    if (clearance.values()[i] <= 0) continue;
+    const Vector2d center = clearance.geometry().center_of(clearance.geometry().cell(i));
+    on_lane.values()[i] = std::any_of(plan.lanes.begin(), plan.lanes.end(), [&](const Lane& lane) {
+      return distance(center, lane.center) <= 0.5 * lane.free_width_m;
+    });
+  }
+  return on_lane;
+}
+
 }  // namespace
 
 World::World(WorldPlan plan)
-    : plan_(std::move(plan)), surfaces_(all_surfaces(plan_)), field_(all_steel(plan_)), clearance_m_(clearance_of(plan_, surfaces_)) {}
+    : plan_(std::move(plan)),
+      surfaces_(all_surfaces(plan_)),
+      field_(all_steel(plan_)),
+      clearance_m_(clearance_of(plan_, surfaces_)),
+      on_lane_(lane_cells(plan_, clearance_m_)) {}
 
 World on_another_day(const World& world, double moved_fraction, const Random& random) {
   WorldPlan plan = world.plan();

@@ -102,7 +102,8 @@ TEST(OccupiedOutlines, PassEveryBorderCellWithinTheTolerance) {
       const auto outlines = occupied_outlines(map, 0.05 * tolerance_cells);
       for (std::size_t i = 0; i < map.values().size(); ++i) {
         const Cell cell = map.geometry().cell(i);
-        if (is_border(map, cell)) EXPECT_LE(distance_to(outlines, map.geometry().center_of(cell)), 0.05 * (tolerance_cells + 0.251));
+        if (!is_border(map, cell)) continue;
+        EXPECT_LE(distance_to(outlines, map.geometry().center_of(cell)), 0.05 * (tolerance_cells + 0.251));
       }
       for (const Polygon& polygon : outlines)
         for (const Vector2d& corner : polygon) EXPECT_EQ(state_at(map, corner), CellState::kOccupied);
@@ -114,7 +115,7 @@ TEST(OccupiedOutlines, AreFewLinesForASlantedWall) {
   for (int column = 0; column < 400; ++column) map[{column, 20 + column / 8}] = CellState::kOccupied;
   const auto outlines = occupied_outlines(map);
   ASSERT_EQ(outlines.size(), 1u);
-  EXPECT_LE(outlines[0].size(), 8u);
+  EXPECT_LE(outlines[0].size(), 8u) << "one line a few cells long each would be 100";
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ std::vector<FieldPath> lane_paths(const sim::World& world, double shift_m, doubl
 
 std::vector<FieldPath> survey_paths(const sim::World& world, double height_m) {
   std::vector<FieldPath> paths;
-  for (const double shift : {0.0, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6})
+  for (const double shift : {0.0, -0.5, 0.5, 0.7})
     for (FieldPath& path : lane_paths(world, shift, height_m)) paths.push_back(std::move(path));
   return paths;
 }

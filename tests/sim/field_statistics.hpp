@@ -35,7 +35,7 @@ FieldStatistics statistics(const std::vector<FieldPath>& paths);
 /// The field every 5 cm along lines of a world's lanes, `shift_m` beside their centres, at a height.
 std::vector<FieldPath> lane_paths(const sim::World& world, double shift_m, double height_m);
 
-/// Centre lines, and lines up to 0.6 m beside them, for the correlation across.
+/// Centre lines and lines beside them, 0.2 to 1.2 m apart, for the correlation across.
 std::vector<FieldPath> survey_paths(const sim::World& world, double height_m = 0.7);
 
 /// A CSV of the real corridors: x, y, z, bx, by, bz.

@@ -66,6 +66,7 @@ TEST(Lidar, HasTheDataSheetsNoise) {
     ahead.beams = 1;
     ahead.field_of_view_rad = 0.0;
     ahead.dropout = 0.0;
+    ahead.detection_range_m = 1e6;
     const World world = room({2 * distance_m, 2 * distance_m});
     double sum = 0.0, square = 0.0;
     constexpr int kScans = 4000;

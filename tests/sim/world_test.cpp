@@ -81,8 +81,9 @@ TEST_P(EveryWorld, MapsItsGroundAsFreeAndTheOutsideAsUnknown) {
 
 TEST_P(EveryWorld, IsClosedWhereRobotsDriveOrEndsWithinItsFootprint) {
   for (std::size_t i = 0; i < world_.clearance_m().values().size(); ++i)
-    if (world_.clearance_m().values()[i] > 0)
+    if (world_.clearance_m().values()[i] > 0) {
       ASSERT_TRUE(world_.plan().footprint_m.contains(world_.clearance_m().geometry().center_of(world_.clearance_m().geometry().cell(i))));
+    }
 }
 
 TEST_P(EveryWorld, StaysAsItIsIfNothingMoves) {

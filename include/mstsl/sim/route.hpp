@@ -21,8 +21,8 @@ double length(const Route& route);
 Route truncated(const Route& route, double length_m);
 
 struct PathOptions {
-  double clearance_m = 0.35;          ///< least distance of the robot's centre to any surface: a 0.5 m robot and a margin
-  double preferred_clearance_m = 0.9; ///< nearer than this the path prefers to keep away
+  double clearance_m = World::kRobotClearance_m;  ///< least distance of the robot's centre to any surface
+  double preferred_clearance_m = 0.9;             ///< nearer than this the path prefers to keep away
 };
 
 /// A drivable way from one point to another: A* on the world's clearance grid, then straightened.

@@ -17,7 +17,7 @@ struct SurveyOptions {
   int passes = 1;                   ///< how often each line is driven both ways
   std::size_t fingerprints = 0;     ///< if not 0: as many passes (or as few lines) as give this many fingerprints
   double fingerprint_spacing_m = 0.05;  ///< one fingerprint per this much travel (paper: 5 cm)
-  PathOptions path{0.3, 0.9};           ///< nearer to a surface than this no line is driven
+  PathOptions path;                     ///< nearer to a surface than this no line is driven
   double log_length_m = 1500.0;     ///< a log ends after about this much driving: a battery's charge
 };
 

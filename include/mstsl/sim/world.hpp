@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -75,13 +76,18 @@ class World {
   /// Distance to the nearest surface at each point of the driveable ground (at most kMaxClearance_m), and 0 where a
   /// robot never comes from the lanes.
   const Grid<float>& clearance_m() const { return clearance_m_; }
+  /// 1 on that ground within the free width of a lane, 0 beside (empty bays, corners of rooms); the same cells.
+  const Grid<std::uint8_t>& on_lane() const { return on_lane_; }
   static constexpr double kMaxClearance_m = 2.0;
+  /// The robot's centre stays this far from every surface: a 0.5 m wide robot and a hand's margin.
+  static constexpr double kRobotClearance_m = 0.3;
 
  private:
   WorldPlan plan_;
   SegmentIndex surfaces_;
   SteelField field_;
   Grid<float> clearance_m_;
+  Grid<std::uint8_t> on_lane_;
 };
 
 struct WorldOptions {
