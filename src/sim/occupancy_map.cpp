@@ -22,7 +22,8 @@ GridGeometry geometry_of(const World& world, double resolution_m) {
   }
   const Vector2d low = ((area.min().array() - kMargin_m) / resolution_m).floor() * resolution_m;
   const Vector2d size = (area.max() - low).array() + kMargin_m;
-  return {resolution_m, static_cast<int>(size.x() / resolution_m) + 1, static_cast<int>(size.y() / resolution_m) + 1, Pose2::from(low, 0)};
+  return {resolution_m, static_cast<int>(size.x() / resolution_m) + 1,
+          static_cast<int>(size.y() / resolution_m) + 1, Pose2::from(low, 0)};
 }
 
 void draw(OccupancyGrid& map, const Segment& segment) {
@@ -44,12 +45,14 @@ void flood(OccupancyGrid& map, const World& world) {
   };
   for (const Lane& lane : world.lanes()) {
     const int steps = 1 + static_cast<int>(length(lane.center) / map.geometry().resolution_m);
-    for (int i = 0; i <= steps; ++i) visit(map.geometry().cell_at(point_along(lane.center, static_cast<double>(i) / steps)));
+    for (int i = 0; i <= steps; ++i)
+      visit(map.geometry().cell_at(point_along(lane.center, static_cast<double>(i) / steps)));
   }
   while (!open.empty()) {
     const Cell cell = open.back();
     open.pop_back();
-    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) visit({cell.column + step.column, cell.row + step.row});
+    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}})
+      visit({cell.column + step.column, cell.row + step.row});
   }
 }
 

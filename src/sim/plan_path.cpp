@@ -18,8 +18,8 @@ namespace {
 using Eigen::Vector2d;
 using Path = std::vector<Vector2d>;
 
-/// How many times longer a way at the least clearance counts than one at the preferred, and one beside the lanes than
-/// one on them: robots keep to corridors and aisles, though an empty bay may be free.
+/// How many times longer a way at the least clearance counts than one at the preferred, and one beside the
+/// lanes than one on them: robots keep to corridors and aisles, though an empty bay may be free.
 constexpr double kHugging = 3.0;
 constexpr double kBesideLanes = 3.0;
 
@@ -30,7 +30,9 @@ class Costs {
       : clearance_(world.clearance_m()), on_lane_(world.on_lane()), options_(options) {}
 
   const GridGeometry& geometry() const { return clearance_.geometry(); }
-  bool passable(Cell cell) const { return clearance_.contains(cell) && clearance_[cell] >= options_.clearance_m; }
+  bool passable(Cell cell) const {
+    return clearance_.contains(cell) && clearance_[cell] >= options_.clearance_m;
+  }
 
   /// Of a passable cell, at least 1.
   double per_metre(Cell cell) const {
@@ -61,7 +63,9 @@ class Costs {
 class Search {
  public:
   explicit Search(const Costs& costs)
-      : costs_(costs), cost_(costs.geometry(), std::numeric_limits<double>::infinity()), from_(costs.geometry(), 0) {}
+      : costs_(costs),
+        cost_(costs.geometry(), std::numeric_limits<double>::infinity()),
+        from_(costs.geometry(), 0) {}
 
   /// A* from cell to cell; empty if there is no way.
   std::vector<Cell> run(Cell start, Cell goal) {
@@ -85,7 +89,9 @@ class Search {
     return costs_.geometry().resolution_m * std::hypot(cell.column - goal.column, cell.row - goal.row);
   }
 
-  void push(Cell cell, Cell goal) { open_.emplace(cost_[cell] + to_go(cell, goal), costs_.geometry().index(cell)); }
+  void push(Cell cell, Cell goal) {
+    open_.emplace(cost_[cell] + to_go(cell, goal), costs_.geometry().index(cell));
+  }
 
   void expand(Cell cell, Cell goal) {
     for (int row = -1; row <= 1; ++row)
@@ -155,7 +161,8 @@ Error not_drivable(const Vector2d& point_m) {
 
 }  // namespace
 
-Result<Path> plan_path(const World& world, const Vector2d& start_m, const Vector2d& goal_m, const PathOptions& options) {
+Result<Path> plan_path(const World& world, const Vector2d& start_m, const Vector2d& goal_m,
+                       const PathOptions& options) {
   const Costs costs(world, options);
   const auto start = cell_near(costs, start_m);
   if (!start) return not_drivable(start_m);
@@ -164,8 +171,8 @@ Result<Path> plan_path(const World& world, const Vector2d& start_m, const Vector
   if (costs.between(start_m, goal_m) <= 1.05 * (goal_m - start_m).norm()) return Path{start_m, goal_m};
   const std::vector<Cell> cells = Search(costs).run(*start, *goal);
   if (cells.empty())
-    return Error("no way leads from (" + std::to_string(start_m.x()) + ", " + std::to_string(start_m.y()) + ") to (" +
-                 std::to_string(goal_m.x()) + ", " + std::to_string(goal_m.y()) + ")");
+    return Error("no way leads from (" + std::to_string(start_m.x()) + ", " + std::to_string(start_m.y()) +
+                 ") to (" + std::to_string(goal_m.x()) + ", " + std::to_string(goal_m.y()) + ")");
   Path path;
   for (const Cell cell : cells) path.push_back(costs.geometry().center_of(cell));
   path.front() = start_m;

@@ -44,7 +44,8 @@ GridGeometry geometry_over(const Eigen::AlignedBox2d& area_m, double cell_m) {
 }
 
 bool is_ground(const WorldPlan& plan, const Vector2d& point_m) {
-  return plan.footprint_m.contains(point_m) && (!plan.ground || state_at(*plan.ground, point_m) == CellState::kFree);
+  return plan.footprint_m.contains(point_m) &&
+         (!plan.ground || state_at(*plan.ground, point_m) == CellState::kFree);
 }
 
 /// Spreads from the lanes over all ground that is far enough from the surfaces.
@@ -56,19 +57,22 @@ Grid<float> clearance_of(const WorldPlan& plan, const SegmentIndex& surfaces) {
     if (!clearance.contains(cell) || seen[clearance.geometry().index(cell)]) return;
     seen[clearance.geometry().index(cell)] = true;
     const Vector2d center = clearance.geometry().center_of(cell);
-    const double distance = is_ground(plan, center) ? surfaces.clearance(center, World::kMaxClearance_m) : 0.0;
+    const double distance =
+        is_ground(plan, center) ? surfaces.clearance(center, World::kMaxClearance_m) : 0.0;
     if (distance < World::kRobotClearance_m) return;
     clearance[cell] = static_cast<float>(distance);
     open.push_back(cell);
   };
   for (const Lane& lane : plan.lanes) {
     const int steps = 1 + static_cast<int>(length(lane.center) / kClearanceCell_m);
-    for (int i = 0; i <= steps; ++i) visit(clearance.geometry().cell_at(point_along(lane.center, static_cast<double>(i) / steps)));
+    for (int i = 0; i <= steps; ++i)
+      visit(clearance.geometry().cell_at(point_along(lane.center, static_cast<double>(i) / steps)));
   }
   while (!open.empty()) {
     const Cell cell = open.back();
     open.pop_back();
-    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) visit({cell.column + step.column, cell.row + step.row});
+    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}})
+      visit({cell.column + step.column, cell.row + step.row});
   }
   return clearance;
 }

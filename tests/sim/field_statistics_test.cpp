@@ -1,18 +1,19 @@
 #include "field_statistics.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/random.hpp"
+
 #include "test_support.hpp"
 
-/// Simulated fields against recorded ones. The bounds are those of real buildings (cea-corridor, aalto-robot), never
-/// of what a localizer would like.
+/// Simulated fields against recorded ones. The bounds are those of real buildings (cea-corridor,
+/// aalto-robot), never of what a localizer would like.
 namespace mstsl::test {
 namespace {
 
@@ -24,7 +25,8 @@ FieldStatistics measure(const std::string& name) {
   for (const std::uint64_t seed : {11, 12}) {
     std::vector<FieldPath> paths = survey_paths(must(sim::make_world(name, {}, Random(seed))));
     for (FieldPath& path : paths)
-      for (FieldSample& sample : path) sample.position_m.x() += 1e4 * static_cast<double>(seed);  // one beside the other
+      for (FieldSample& sample : path)
+        sample.position_m.x() += 1e4 * static_cast<double>(seed);  // one beside the other
     std::move(paths.begin(), paths.end(), std::back_inserter(all));
     if (name != "corridor" && name != "office-wing") break;
   }
@@ -70,8 +72,11 @@ TEST_P(FieldOfWorld, HasQuietAndStrongPlacesAsRealBuildingsHave) {
   EXPECT_LT(2.0 * s.local_sd_low_uT, s.local_sd_high_uT);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, FieldOfWorld, ::testing::Values("corridor", "carpark", "warehouse", "office-wing"),
-                         [](const auto& test) { return test.param == "office-wing" ? std::string("office_wing") : test.param; });
+INSTANTIATE_TEST_SUITE_P(Every, FieldOfWorld,
+                         ::testing::Values("corridor", "carpark", "warehouse", "office-wing"),
+                         [](const auto& test) {
+                           return test.param == "office-wing" ? std::string("office_wing") : test.param;
+                         });
 
 TEST(RealCorridor, IsMeasuredAsItsDescriptionSays) {
   MSTSL_REQUIRE_DATA("cea-corridor/floor_a_survey.csv");

@@ -1,11 +1,12 @@
 #include "mstsl/sim/survey.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/sim/trajectory.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::sim {
@@ -28,12 +29,14 @@ double fingerprints(const std::vector<Route>& routes) {
 }
 
 TEST(Survey, ReachesThePapersNumbersOfFingerprints) {
-  for (const auto& [name, wanted] : {std::pair("corridor", std::size_t{67238}), std::pair("carpark", std::size_t{118688})}) {
+  for (const auto& [name, wanted] :
+       {std::pair("corridor", std::size_t{67238}), std::pair("carpark", std::size_t{118688})}) {
     SurveyOptions options;
     options.fingerprints = wanted;
     const auto routes = must(survey_routes(must(make_world(name, {}, Random(1))), options));
     EXPECT_NEAR(total(routes), 0.05 * static_cast<double>(wanted), 0.01) << name;
-    EXPECT_NEAR(fingerprints(routes), static_cast<double>(wanted), 0.03 * static_cast<double>(wanted)) << name;
+    EXPECT_NEAR(fingerprints(routes), static_cast<double>(wanted), 0.03 * static_cast<double>(wanted))
+        << name;
   }
 }
 
@@ -47,7 +50,9 @@ TEST(Survey, DrivesEachLaneBothWays) {
       for (const Route& route : routes)
         for (const Segment& leg : polyline(route.waypoints_m, false)) {
           const double along = (leg.b - leg.a).dot(ahead);
-          if (std::abs(along) < 0.999 * length(leg) || distance(point_along(leg, 0.5), lane.center) > 0.5 * lane.free_width_m) continue;
+          if (std::abs(along) < 0.999 * length(leg) ||
+              distance(point_along(leg, 0.5), lane.center) > 0.5 * lane.free_width_m)
+            continue;
           (along > 0 ? forth_m : back_m) += length(leg);
         }
       EXPECT_GT(forth_m, 0.8 * length(lane.center)) << name;
@@ -63,7 +68,8 @@ TEST(Survey, PassesEveryLane) {
     for (const double t : {0.1, 0.5, 0.9}) {
       double away = 1e9;
       for (const Route& route : routes)
-        for (const Segment& leg : polyline(route.waypoints_m, false)) away = std::min(away, distance(point_along(lane.center, t), leg));
+        for (const Segment& leg : polyline(route.waypoints_m, false))
+          away = std::min(away, distance(point_along(lane.center, t), leg));
       EXPECT_LT(away, 0.3);
     }
 }
@@ -73,7 +79,8 @@ TEST(Survey, KeepsClearOfTheWalls) {
     const World world = must(make_world(name, {}, Random(1)));
     for (const Route& route : must(survey_routes(world, {})))
       for (const Segment& leg : polyline(route.waypoints_m, false))
-        for (double t = 0; t <= 1; t += 0.02) ASSERT_GT(world.surfaces().clearance(point_along(leg, t), 1.0), 0.2) << name;
+        for (double t = 0; t <= 1; t += 0.02)
+          ASSERT_GT(world.surfaces().clearance(point_along(leg, t), 1.0), 0.2) << name;
   }
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/core/random.hpp"
 #include "mstsl/core/result.hpp"
@@ -28,6 +29,7 @@ struct PathOptions {
 /// A drivable way from one point to another: A* on the world's clearance grid, then straightened.
 /// Errors: an end that is not on driveable ground, or no way between.
 Result<std::vector<Eigen::Vector2d>> plan_path(const World& world, const Eigen::Vector2d& start_m,
-                                               const Eigen::Vector2d& goal_m, const PathOptions& options = {});
+                                               const Eigen::Vector2d& goal_m,
+                                               const PathOptions& options = {});
 
 }  // namespace mstsl::sim
