@@ -71,8 +71,7 @@ void add_evaluate(CLI::App& app, Session& session) {
           "--truth", wish->truths,
           "True poses, CSV with t,x,y,yaw; give it once for all estimates, or once for each in their order")
       ->required()
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);  // one a flag: what follows are the estimates
   command->add_option("estimates", wish->estimates, "Files of estimates, one a run")->required();
   add_common_options(*command, session);
   command->callback(
