@@ -86,24 +86,6 @@ Result<Setting> prepare(const PaperProtocolOptions& options, const Random& rando
   return setting;
 }
 
-/// The first scan of a drive, as the robot sees it before it is told to turn.
-LaserScan first_scan(const sim::World& world, const sim::RobotOptions& robot,
-                     const sim::Trajectory& trajectory, const Random& random) {
-  sim::Trajectory beginning = trajectory;
-  beginning.poses.resize(std::min<std::size_t>(beginning.poses.size(), 10));
-  LaserScan first;
-  bool seen = false;
-  sim::drive(world, robot, beginning, random,
-             {[&](const SensorEvent& event) {
-                const auto* scan = std::get_if<LaserScan>(&event);
-                if (scan == nullptr || seen) return;
-                first = *scan;
-                seen = true;
-              },
-              {}});
-  return first;
-}
-
 /// One start: the robot aligns itself, drives, and every model's localizer hears the same events.
 Result<std::vector<ProtocolRun>> run_once(const Setting& setting, const PaperProtocolOptions& options,
                                           const TwoStepOptions& two_step, const Random& random, int waypoint,
@@ -113,8 +95,7 @@ Result<std::vector<ProtocolRun>> run_once(const Setting& setting, const PaperPro
   if (!route) return route.error();
   const Random drive_random = random.fork(kDrive);
   sim::RobotOptions robot = options.robot;
-  const sim::Trajectory standing = sim::follow(*route, robot.motion, Stamp{}, drive_random);
-  const LaserScan seen = first_scan(setting.today, robot, standing, drive_random);
+  const LaserScan seen = sim::first_scan(setting.today, robot, *route, Stamp{}, drive_random);
   Random line_random = random.fork(kLine);
   const auto line = fit_line(points_in_base(seen, robot.rig.base_T_laser), two_step.align.line, line_random);
   robot.motion.initial_turn_rad = line ? turn_parallel_to(*line) : 0.0;
