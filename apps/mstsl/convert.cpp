@@ -7,12 +7,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "interrupt.hpp"
 #include "mstsl/core/random.hpp"
 #include "mstsl/datasets/carmen.hpp"
 #include "mstsl/datasets/cea_corridor.hpp"
 #include "mstsl/datasets/dataset_writer.hpp"
 #include "mstsl/datasets/kaist.hpp"
+
+#include "interrupt.hpp"
 #include "progress.hpp"
 #include "session.hpp"
 
@@ -96,19 +97,24 @@ void add_convert(CLI::App& app, Session& session) {
   command->add_option("input", wish->input, "Folder of the recordings; for carmen the *-corrected.log(.gz)")
       ->required()
       ->check(CLI::ExistingPath);
-  command->add_option("-o,--output", wish->output, "Folder for map.yaml, survey_*, run_*, truth_*, README.txt")
+  command
+      ->add_option("-o,--output", wish->output, "Folder for map.yaml, survey_*, run_*, truth_*, README.txt")
       ->required();
   command->add_option("--runs", wish->runs, "How many runs to cut out")->check(CLI::Range(1, 10000));
-  command->add_option("--run-length", wish->run_length_m, "Length of a run in m")->check(CLI::Range(1.0, 1000.0));
+  command->add_option("--run-length", wish->run_length_m, "Length of a run in m")
+      ->check(CLI::Range(1.0, 1000.0));
   command->add_option("--bias", wish->bias_uT, "SD of a constant magnetometer error per run and axis, uT")
       ->check(CLI::Range(0.0, 1000.0));
   command->add_option("--noise", wish->noise_uT, "SD of white noise added to the magnetometer, uT")
       ->check(CLI::Range(0.0, 1000.0));
-  command->add_option("--mapped-share", wish->mapped_share, "carmen: share of the way that makes map and survey")
+  command
+      ->add_option("--mapped-share", wish->mapped_share, "carmen: share of the way that makes map and survey")
       ->check(CLI::Range(0.05, 0.95));
-  command->add_flag("--no-lanes", wish->no_lanes, "carmen: survey along the recorded way only, not along every lane");
+  command->add_flag("--no-lanes", wish->no_lanes,
+                    "carmen: survey along the recorded way only, not along every lane");
   add_common_options(*command, session);
-  command->callback([wish, &session] { session.work = [wish, &session] { return convert(session, *wish); }; });
+  command->callback(
+      [wish, &session] { session.work = [wish, &session] { return convert(session, *wish); }; });
 }
 
 }  // namespace mstsl::app

@@ -76,12 +76,12 @@ void play(const Parts& parts, const sim::DriveSinks& sinks) {
 
 }  // namespace
 
-Log track_log(const TrackPart& part, std::span<const OdometryReading> odometry, std::span<const LaserScan> scans,
-              std::shared_ptr<const sim::World> world, const Rig& rig, const sim::MagnetometerOptions& magnetometer,
-              const Random& random) {
+Log track_log(const TrackPart& part, std::span<const OdometryReading> odometry,
+              std::span<const LaserScan> scans, std::shared_ptr<const sim::World> world, const Rig& rig,
+              const sim::MagnetometerOptions& magnetometer, const Random& random) {
   const auto parts = std::make_shared<const Parts>(Parts{part, within(odometry, part.from, part.to),
-                                                         within(scans, part.from, part.to), std::move(world), rig,
-                                                         magnetometer, random});
+                                                         within(scans, part.from, part.to), std::move(world),
+                                                         rig, magnetometer, random});
   return {rig, [parts](const sim::DriveSinks& sinks) { play(*parts, sinks); }};
 }
 
