@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <optional>
 
 namespace mstsl::datasets {
-namespace {
 
-/// odom_T_base at a time; nothing outside the readings.
 std::optional<Pose2> odometry_at(std::span<const OdometryReading> odometry, Stamp stamp) {
   const auto after =
       std::lower_bound(odometry.begin(), odometry.end(), stamp,
@@ -20,8 +17,6 @@ std::optional<Pose2> odometry_at(std::span<const OdometryReading> odometry, Stam
   return interpolate(before->odom_T_base, after->odom_T_base,
                      (stamp - before->stamp) / (after->stamp - before->stamp));
 }
-
-}  // namespace
 
 CorrectedTrack::CorrectedTrack(std::span<const PoseReading> corrected,
                                std::span<const OdometryReading> odometry) {

@@ -121,6 +121,25 @@ TEST_F(RealCarmen, RunsHoldRecordedScansOfTheLaterPartOnly) {
   }
 }
 
+TEST_F(RealCarmen, RunsHaveOdometryAtEveryScanAndNothingOutOfOrder) {
+  MSTSL_REQUIRE_DATA("carmen/intel-corrected.log.gz");
+  const Dataset dataset =
+      test::must(carmen(test::data_file("carmen/intel-corrected.log.gz"), options(), Random(1)));
+  for (const Log& run : dataset.runs) {
+    Stamp last{0}, last_odometry{0};
+    run.play({[&](const SensorEvent& event) {
+                EXPECT_GE(stamp_of(event), last);
+                last = stamp_of(event);
+                if (std::holds_alternative<OdometryReading>(event)) {
+                  EXPECT_GT(last, last_odometry);
+                  last_odometry = last;
+                }
+                EXPECT_TRUE(!std::holds_alternative<LaserScan>(event) || last == last_odometry);
+              },
+              {}});
+  }
+}
+
 TEST_F(RealCarmen, RunsKeepToFreeGroundAndTheirLength) {
   MSTSL_REQUIRE_DATA("carmen/intel-corrected.log.gz");
   const Dataset dataset =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "mstsl/core/stamp.hpp"
 
 namespace mstsl::datasets {
+
+/// odom_T_base at a time, between the readings (which are in time order); nothing outside them.
+std::optional<Pose2> odometry_at(std::span<const OdometryReading> odometry, Stamp stamp);
 
 /// A robot's way through the poses that somebody's SLAM gave it now and then: between two of them it has the
 /// shape that odometry recorded, pulled evenly in time so that it meets both.
