@@ -42,10 +42,10 @@ result() {
     truths+=(--truth "$folder/truth_${number%.mcap}.csv")
     estimates+=("${run%.mcap}_$method.jsonl")
   done
-  "$mstsl" evaluate "${truths[@]}" "${estimates[@]}" >&2
+  "$mstsl" evaluate "${estimates[@]}" "${truths[@]}" >&2
   printf '{"dataset": %s, "real": %s, "method": %s, "hypotheses": %s, "seed": %s, "convert": %s, "evaluation": %s}' \
     "$(quoted "$name")" "$(quoted "$real")" "$(quoted "$method")" "$k" "$seed" "$(quoted "${*//$data\//}")" \
-    "$("$mstsl" evaluate --json "${truths[@]}" "${estimates[@]}")"
+    "$("$mstsl" evaluate --json "${estimates[@]}" "${truths[@]}")"
 }
 
 field='field; lidar and odometry simulated'

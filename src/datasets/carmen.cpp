@@ -54,25 +54,25 @@ Result<std::vector<Log>> lane_surveys(const std::shared_ptr<const sim::World>& w
 
 std::string provenance(const std::filesystem::path& file, const CarmenOptions& options,
                        const Revisits& revisits, std::size_t lane_logs) {
-  return fmt::format(
-      "Made from {}, one of the Radish logs as redistributed in acschaefer/ple.\n\n"
-      "REAL: lidar and wheel odometry. The first {:.0f} m of the way make map.yaml from the log's corrected "
-      "poses. "
-      "run_*.mcap are stretches of {:.0f} m of the later {:.0f} m, with the recorded scans and the odometry "
-      "of the "
-      "wheels; their truth is the log's corrected poses, with the shape of the odometry between them. Of the "
-      "later "
-      "scans {:.0f} % were taken less than 1 m from the first part's way; runs keep to the {} scans on "
-      "mapped free "
-      "ground, {} m from mapped walls and within {} m of that way.\n\n"
-      "SIMULATED: the magnetic field, by steel placed over the mapped walls; noise {} uT, bias {} uT (SD per "
-      "axis). "
-      "survey_00.mcap reads it along the first part's way{}.\n",
-      file.filename().string(), revisits.first_m, options.runs.length_m, revisits.later_m,
-      100.0 * revisits.within_1m_share, revisits.revisiting, options.clearance_m, options.near_m,
-      options.robot.magnetometer.noise_uT, options.robot.magnetometer.bias_sigma_uT,
-      lane_logs == 0 ? std::string()
-                     : fmt::format(", {} more along every lane of the map, driven both ways", lane_logs));
+  const std::string lanes =
+      lane_logs == 0 ? "."
+                     : fmt::format(",\n{} more along every lane of the map, driven both ways.", lane_logs);
+  return fmt::format(R"(Made from {}, one of the Radish logs as redistributed in acschaefer/ple.
+
+REAL: lidar and wheel odometry. The first {:.0f} m of the way make map.yaml from the log's corrected poses.
+run_*.mcap are stretches of {:.0f} m of the later {:.0f} m, with the recorded scans and the odometry of the
+wheels (with one reading more at each scan, between the recorded ones). Their truth is the log's corrected
+poses, with the shape of the odometry between them. Of the later scans {:.0f} % were taken less than 1 m
+from the first part's way; runs keep to the {} scans within {} m of that way, on mapped free ground and
+{} m from mapped walls.
+
+SIMULATED: the magnetic field, by steel placed over the mapped walls; noise {} uT, bias {} uT (SD per
+axis). survey_00.mcap reads it along the first part's way{}
+)",
+                     file.filename().string(), revisits.first_m, options.runs.length_m, revisits.later_m,
+                     100.0 * revisits.within_1m_share, revisits.revisiting, options.near_m,
+                     options.clearance_m, options.robot.magnetometer.noise_uT,
+                     options.robot.magnetometer.bias_sigma_uT, lanes);
 }
 
 }  // namespace

@@ -39,20 +39,18 @@ std::vector<bool> continued(const Path& path_m, double longest_step_m) {
 }
 
 std::string provenance(const CeaCorridorOptions& options, double survey_m, double query_m) {
-  return fmt::format(
-      "Made from the data set CEA-LIST/large-scale-magnetic-mapping (cea-corridor).\n\n"
-      "REAL: the magnetic field. survey_*.mcap holds the field of floor_a_survey.csv ({:.0f} m), run_*.mcap "
-      "stretches of "
-      "{:.0f} m of floor_a_query.csv ({:.0f} m), another pass through the same corridors; no run holds a "
-      "survey reading. "
-      "The paths are the recorded ones, the heading their direction over {} m. Each run starts with a random "
-      "heading "
-      "and turns in place; while it turns, the field is that of its first row.\n\n"
-      "SIMULATED: walls (tubes {} m wide around both passes), lidar (UTM-30LX), wheel odometry. Added to the "
-      "field: "
-      "bias of {} uT, noise of {} uT (SD per axis), since the readings hold their own noise.\n",
-      survey_m, options.runs.length_m, query_m, kHeadingWindow_m, options.corridor.width_m,
-      options.robot.magnetometer.bias_sigma_uT, options.robot.magnetometer.noise_uT);
+  return fmt::format(R"(Made from CEA-LIST/large-scale-magnetic-mapping (cea-corridor).
+
+REAL: the magnetic field. survey_00.mcap holds that of floor_a_survey.csv ({:.0f} m), run_*.mcap stretches
+of {:.0f} m of floor_a_query.csv ({:.0f} m), another pass through the same corridors: no run holds a
+reading of the survey. The paths are the recorded ones, the heading their direction over {} m. Each run
+starts with a random heading and turns in place; while it turns, the field is that of its first row.
+
+SIMULATED: walls (tubes {} m wide around both passes), lidar (UTM-30LX), wheel odometry.
+Added to the field: bias of {} uT, noise of {} uT (SD per axis), for its readings hold their own.
+)",
+                     survey_m, options.runs.length_m, query_m, kHeadingWindow_m, options.corridor.width_m,
+                     options.robot.magnetometer.bias_sigma_uT, options.robot.magnetometer.noise_uT);
 }
 
 }  // namespace
