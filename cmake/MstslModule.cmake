@@ -11,14 +11,27 @@ function(mstsl_module name)
   target_include_directories(mstsl_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_link_libraries(mstsl_${name} PUBLIC ${arg_PUBLIC}
-    PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:mstsl_own_flags>)
+    PRIVATE ${arg_PRIVATE} fmt::fmt $<BUILD_INTERFACE:mstsl_own_flags>)
+  mstsl_precompile(mstsl_${name} mstsl_core)
   set_property(GLOBAL APPEND PROPERTY MSTSL_MODULES mstsl_${name})
+endfunction()
+
+# Compiles the common headers once, in `owner`, for all targets that share its flags.
+function(mstsl_precompile target owner)
+  if(NOT MSTSL_PCH)
+    return()
+  elseif(target STREQUAL owner)
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
 endfunction()
 
 # mstsl_test(<name> SOURCES a.cpp ... [LINK target...]): one GoogleTest program, its cases known to ctest.
 function(mstsl_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
-  target_link_libraries(test_${name} PRIVATE ${arg_LINK} mstsl_test_support GTest::gtest_main mstsl_own_flags)
+  target_link_libraries(test_${name} PRIVATE ${arg_LINK} mstsl_test_support GTest::gtest_main fmt::fmt mstsl_own_flags)
+  mstsl_precompile(test_${name} test_core)
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. PROPERTIES TIMEOUT 300 DISCOVERY_TIMEOUT 60)
 endfunction()

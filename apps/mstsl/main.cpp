@@ -1,59 +1,17 @@
-#include <cstdio>
 #include <exception>
+#include <new>
 
 #include <fmt/format.h>
 
-#include "interrupt.hpp"
-#include "session.hpp"
-
-namespace mstsl::app {
-
-void add_common_options(CLI::App& command, Session& session) {
-  command
-      .add_option("--threads", session.threads.count,
-                  "Threads to use; 0 takes all cores. Never changes results")
-      ->check(CLI::Range(0, 1024));
-  command.add_option("--seed", session.seed, "Seed of everything random")->capture_default_str();
-  command.add_flag("--quiet", session.quiet, "Print errors only");
-  command.add_flag("--json", session.json, "Print the result as one JSON object on stdout");
-}
-
-namespace {
-
-int fail(const std::string& sentence) {
-  fmt::print(stderr, "mstsl: {}\n", sentence);
-  return static_cast<int>(Exit::kFailed);
-}
-
-int run(int argc, char** argv) {
-  CLI::App app("Tells a mobile robot where it is, in buildings that look alike", "mstsl");
-  app.set_version_flag("--version", MSTSL_VERSION);
-  app.require_subcommand(1);
-  Session session;
-  for (const auto add :
-       {add_demo, add_simulate, add_map, add_localize, add_evaluate, add_bench, add_convert, add_info})
-    add(app, session);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for_help = error.get_exit_code() == 0;
-    app.exit(error);
-    return static_cast<int>(asked_for_help ? Exit::kDone : Exit::kWrongUsage);
-  }
-  stop_on_interrupt();
-  const Result<Exit> exit = session.work();
-  return exit ? static_cast<int>(*exit) : fail(exit.error().message());
-}
-
-}  // namespace
-}  // namespace mstsl::app
+#include "command_line.hpp"
 
 int main(int argc, char** argv) {
+  using namespace mstsl::app;
   try {
-    return mstsl::app::run(argc, argv);
+    return run_command_line({argv + 1, argv + argc});
   } catch (const std::bad_alloc&) {
-    return mstsl::app::fail("out of memory; give it a smaller map or log, or a larger machine");
+    return fail("out of memory; give it a smaller map or log, or a larger machine");
   } catch (const std::exception& error) {
-    return mstsl::app::fail(fmt::format("{} (this is a bug, please report it)", error.what()));
+    return fail(fmt::format("{} (this is a bug, please report it)", error.what()));
   }
 }

@@ -13,26 +13,33 @@ using Eigen::Vector2d;
 
 /// The four ways along cell edges, counter-clockwise: east, north, west, south.
 constexpr std::array<Cell, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-/// The cell on the left and on the right of an edge that starts at a cell's lower left corner and goes one way.
+/// The cell on the left and on the right of an edge that starts at a cell's lower left corner and goes one
+/// way.
 constexpr std::array<Cell, 4> kLeft{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
 constexpr std::array<Cell, 4> kRight{{{0, -1}, {0, 0}, {-1, 0}, {-1, -1}}};
 
 Cell operator+(Cell a, Cell b) { return {a.column + b.column, a.row + b.row}; }
 
-bool occupied(const OccupancyGrid& map, Cell cell) { return map.contains(cell) && map[cell] == CellState::kOccupied; }
+bool occupied(const OccupancyGrid& map, Cell cell) {
+  return map.contains(cell) && map[cell] == CellState::kOccupied;
+}
 
 /// Whether the edge from a corner in a direction has an occupied cell on its left and none on its right.
 bool is_boundary(const OccupancyGrid& map, Cell corner, int way) {
-  return occupied(map, corner + kLeft[static_cast<std::size_t>(way)]) && !occupied(map, corner + kRight[static_cast<std::size_t>(way)]);
+  return occupied(map, corner + kLeft[static_cast<std::size_t>(way)]) &&
+         !occupied(map, corner + kRight[static_cast<std::size_t>(way)]);
 }
 
 /// Which edges were walked: one bit a direction for each corner.
 class Walked {
  public:
   explicit Walked(const GridGeometry& geometry)
-      : columns_(static_cast<std::size_t>(geometry.columns) + 1), bits_(columns_ * (static_cast<std::size_t>(geometry.rows) + 1), 0) {}
+      : columns_(static_cast<std::size_t>(geometry.columns) + 1),
+        bits_(columns_ * (static_cast<std::size_t>(geometry.rows) + 1), 0) {}
   bool test(Cell corner, int way) const { return (bits_[index(corner)] >> way) & 1; }
-  void set(Cell corner, int way) { bits_[index(corner)] = static_cast<std::uint8_t>(bits_[index(corner)] | (1 << way)); }
+  void set(Cell corner, int way) {
+    bits_[index(corner)] = static_cast<std::uint8_t>(bits_[index(corner)] | (1 << way));
+  }
 
  private:
   std::size_t index(Cell corner) const {
@@ -71,7 +78,8 @@ double distance_to_chord(const Vector2d& p, const Vector2d& a, const Vector2d& b
 }
 
 /// Marks the points of first..last to keep, both ends included (Douglas & Peucker 1973), without recursion.
-void keep_between(const Polygon& points, std::size_t first, std::size_t last, double tolerance_m, std::vector<bool>& keep) {
+void keep_between(const Polygon& points, std::size_t first, std::size_t last, double tolerance_m,
+                  std::vector<bool>& keep) {
   std::vector<std::pair<std::size_t, std::size_t>> open{{first, last}};
   while (!open.empty()) {
     const auto [from, to] = open.back();
@@ -105,7 +113,8 @@ Polygon simplified(const Polygon& points, double tolerance_m) {
 Polygon small_square(const GridGeometry& geometry, Cell cell) {
   const Vector2d middle(cell.column + 0.5, cell.row + 0.5);
   Polygon square;
-  for (const Vector2d& corner : {Vector2d(-0.25, -0.25), Vector2d(0.25, -0.25), Vector2d(0.25, 0.25), Vector2d(-0.25, 0.25)})
+  for (const Vector2d& corner :
+       {Vector2d(-0.25, -0.25), Vector2d(0.25, -0.25), Vector2d(0.25, 0.25), Vector2d(-0.25, 0.25)})
     square.push_back(geometry.to_map(middle + corner));
   return square;
 }
@@ -114,7 +123,7 @@ Polygon small_square(const GridGeometry& geometry, Cell cell) {
 
 std::vector<Polygon> occupied_outlines(const OccupancyGrid& map, double tolerance_m) {
   const GridGeometry& geometry = map.geometry();
-  const double tolerance = tolerance_m < 0 ? 0.5 * geometry.resolution_m : tolerance_m;
+  const double tolerance = tolerance_m < 0 ? geometry.resolution_m : tolerance_m;
   Walked walked(geometry);
   std::vector<Polygon> outlines;
   // Every closed boundary has an edge that goes east, so looking for those finds all.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -160,8 +161,8 @@ std::vector<double> LidarStage::weights() const {
     sum += weights[i];
     pass += likelihood;
   }
-  // If the robot is at none of these, the best one got through as a look-alike. How often that happens here is told
-  // by the others, which cannot all be right: Laplace's rule of succession over them.
+  // If the robot is at none of these, the best one got through as a look-alike. How often that happens here
+  // is told by the others, which cannot all be right: Laplace's rule of succession over them.
   const double look_alikes = std::max(pass, 1.0) / (static_cast<double>(weights.size()) + 1.0);
   sum += std::max(1.0 - listed, 0.0) * look_alikes;
   for (double& weight : weights) weight *= sum > 0.0 ? options_.max_probability / sum : 0.0;
@@ -173,7 +174,9 @@ std::optional<LidarStage::Answer> LidarStage::answer() const {
   const std::vector<double> shares = weights();
   const auto best = static_cast<std::size_t>(std::max_element(shares.begin(), shares.end()) - shares.begin());
   if (shares.empty() || hypotheses_[best].rejected || hypotheses_[best].low_scores > 0) return std::nullopt;
-  const bool due = shares[best] >= options_.answer_probability || driven_m_ >= options_.answer_distance_m;
+  const double survivors = std::accumulate(shares.begin(), shares.end(), 0.0);
+  const bool due =
+      shares[best] >= options_.answer_share * survivors || driven_m_ >= options_.answer_distance_m;
   if (!due) return std::nullopt;
   return Answer{hypotheses_[best].map_T_base, hypotheses_[best].covariance, shares[best]};
 }

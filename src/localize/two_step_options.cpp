@@ -40,7 +40,7 @@ std::optional<Error> invalid(const TwoStepOptions& options) {
         {"likelihood_temper", lidar.likelihood_temper}})
     if (auto error = not_positive(name, value)) return error;
   for (const auto& [name, value] : {std::pair<const char*, double>{"min_score", lidar.min_score},
-                                    {"answer_probability", lidar.answer_probability},
+                                    {"answer_share", lidar.answer_share},
                                     {"max_probability", lidar.max_probability},
                                     {"low_score", options.tracker.low_score}})
     if (auto error = no_share(name, value)) return error;

@@ -65,38 +65,48 @@ std::vector<std::size_t> training_for(std::span<const Vector2d> points, const Po
   return training;
 }
 
-/// Most probable (factor, reading variance) of one component by Fisher scoring; each a log-normal prior
-/// around `prior` worth a few errors.
-std::pair<double, double> calibrate_one(std::span<const HeldOutError> errors, int c, double prior_factor,
-                                        double prior_reading) {
-  double factor = prior_factor, reading = prior_reading;
-  constexpr int kIterations = 50;
-  constexpr double kPriorErrors = 3.0;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    // Gradient and information of the log likelihood by (ln factor, ln reading variance).
-    double gf = -kPriorErrors * std::log(factor / prior_factor),
-           gr = -kPriorErrors * std::log(reading / prior_reading);
-    double ff = kPriorErrors, rr = kPriorErrors, fr = 0.0;
-    for (const HeldOutError& e : errors) {
-      const double from_map = factor * e.variance_uT2(c);
-      const double total = from_map + reading;
-      const double surplus = 0.5 * (e.error_uT(c) * e.error_uT(c) - total) / (total * total);
-      gf += surplus * from_map;
-      gr += surplus * reading;
-      const double weight = 0.5 / (total * total);
-      ff += weight * from_map * from_map;
-      rr += weight * reading * reading;
-      fr += weight * from_map * reading;
-    }
-    const double determinant = ff * rr - fr * fr;
-    const double step_f = std::clamp((rr * gf - fr * gr) / determinant, -1.0, 1.0);
-    const double step_r = std::clamp((ff * gr - fr * gf) / determinant, -1.0, 1.0);
-    factor = std::clamp(factor * std::exp(step_f), 0.1, 100.0);
-    reading *= std::exp(step_r);
-    if (std::abs(step_f) + std::abs(step_r) < 1e-6) break;
+/// Most probable (factor, reading variance) of one component by Fisher scoring; each with a log-normal prior
+/// around where it starts, worth a few errors.
+struct OneComponent {
+  double factor, reading, prior_uT2;
+
+  /// The map's part of the variance, and its derivative by ln(factor).
+  std::pair<double, double> map_part(double variance_uT2) const {
+    const double share = variance_uT2 / prior_uT2;
+    const double below = 1.0 + (factor - 1.0) * share;
+    return {factor * variance_uT2 / below,
+            factor * variance_uT2 * std::max(0.0, 1.0 - share) / (below * below)};
   }
-  return {factor, reading};
-}
+
+  void fit(std::span<const HeldOutError> errors, int c) {
+    constexpr int kIterations = 50;
+    constexpr double kPriorErrors = 3.0, kLeastFactor = 0.1, kMostFactor = 100.0;
+    const OneComponent start = *this;
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+      // Gradient and information of the log likelihood by (ln factor, ln reading variance).
+      double gf = -kPriorErrors * std::log(factor / start.factor),
+             gr = -kPriorErrors * std::log(reading / start.reading);
+      double ff = kPriorErrors, rr = kPriorErrors, fr = 0.0;
+      for (const HeldOutError& e : errors) {
+        const auto [from_map, slope] = map_part(e.variance_uT2(c));
+        const double total = from_map + reading;
+        const double weight = 0.5 / (total * total);
+        const double surplus = weight * (e.error_uT(c) * e.error_uT(c) - total);
+        gf += surplus * slope;
+        gr += surplus * reading;
+        ff += weight * slope * slope;
+        rr += weight * reading * reading;
+        fr += weight * slope * reading;
+      }
+      const double determinant = ff * rr - fr * fr;
+      const double step_f = std::clamp((rr * gf - fr * gr) / determinant, -1.0, 1.0);
+      const double step_r = std::clamp((ff * gr - fr * gf) / determinant, -1.0, 1.0);
+      factor = std::clamp(factor * std::exp(step_f), kLeastFactor, kMostFactor);
+      reading *= std::exp(step_r);
+      if (std::abs(step_f) + std::abs(step_r) < 1e-6) break;
+    }
+  }
+};
 
 }  // namespace
 
@@ -140,13 +150,19 @@ std::vector<HeldOutError> held_out_errors(std::span<const Fingerprint> fingerpri
   return all;
 }
 
+Array3d VarianceCalibration::apply(const Array3d& variance_uT2) const {
+  return factor * variance_uT2 / (1.0 + (factor - 1.0) * variance_uT2 / prior_sd_uT.square()) +
+         reading_sd_uT.square();
+}
+
 VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior) {
   VarianceCalibration calibration = prior;
   for (int c = 0; c < 3; ++c) {
     const double reading = std::max(prior.reading_sd_uT(c) * prior.reading_sd_uT(c), 1e-12);
-    const auto [factor, variance] = calibrate_one(errors, c, prior.factor(c), reading);
-    calibration.factor(c) = factor;
-    calibration.reading_sd_uT(c) = std::sqrt(variance);
+    OneComponent one{prior.factor(c), reading, prior.prior_sd_uT(c) * prior.prior_sd_uT(c)};
+    one.fit(errors, c);
+    calibration.factor(c) = one.factor;
+    calibration.reading_sd_uT(c) = std::sqrt(one.reading);
   }
   return calibration;
 }

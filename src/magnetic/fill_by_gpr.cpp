@@ -133,13 +133,9 @@ class TiledRegression {
 
   void put(FieldMap& map, std::size_t cell, int c, double mean, double variance) const {
     const double sd_uT = h().signal_sd_uT(c);
-    const VarianceCalibration& calibration = survey_.calibration;
-    const double reading_uT2 = calibration.reading_sd_uT(c) * calibration.reading_sd_uT(c);
+    const Eigen::Array3d variance_uT2 = Eigen::Array3d::Constant(sd_uT * sd_uT * std::min(variance, 1.0));
     map.mean_uT[cell](c) = static_cast<float>(h().mean_uT(c) + sd_uT * mean);
-    // Inflated where lanes showed overconfidence, yet never beyond what is known without any data.
-    const double field_uT2 =
-        sd_uT * sd_uT * std::min(calibration.factor(c) * variance, std::max(1.0, variance));
-    map.variance_uT2[cell](c) = static_cast<float>(field_uT2 + reading_uT2);
+    map.variance_uT2[cell](c) = static_cast<float>(survey_.calibration.apply(variance_uT2)(c));
   }
 
   const SurveyAnalysis& survey_;

@@ -8,6 +8,7 @@
 #include "mstsl/magnetic/tile_regression.hpp"
 
 #include "bilinear_lattice.hpp"
+#include "noise_by_lane.hpp"
 
 namespace mstsl {
 namespace {
@@ -60,7 +61,10 @@ Result<LearnedHyperparameters> hyperparameters_for(const SurveyAnalysis& analysi
   if (!options.hyperparameters) {
     LearningOptions learning = options.learning;
     learning.threads = options.threads;
-    return learn_hyperparameters(analysis.fingerprints, learning);
+    auto learned = learn_hyperparameters(analysis.fingerprints, learning);
+    if (learned && options.noise_from_lanes && analysis.model == FieldModel::kGpr)
+      learned->values = noise_from_lanes(analysis.fingerprints, learned->values, options.threads);
+    return learned;
   }
   const FieldHyperparameters& given = *options.hyperparameters;
   if (!is_valid(given))
@@ -87,20 +91,19 @@ Predictor predictor_for(const SurveyAnalysis& analysis) {
 /// What lanes left out say of the model, and the calibration that follows.
 void check_by_lane(SurveyAnalysis& analysis, const SurveyAnalysisOptions& options) {
   const FieldHyperparameters& h = analysis.hyperparameters.values;
-  HoldOutOptions lanes;
-  lanes.length_m = h.length_scale_m.maxCoeff();
-  HoldOutOptions apart = lanes;
-  apart.radius_m =
-      analysis.model == FieldModel::kFingerprint ? 0.5 * kFingerprintReach_m : 0.5 * lanes.length_m;
+  const double length_m = h.length_scale_m.maxCoeff();
+  const HoldOutWays ways = hold_out_ways(
+      length_m, analysis.model == FieldModel::kFingerprint ? 0.5 * kFingerprintReach_m : 0.5 * length_m);
   const Predictor predict = predictor_for(analysis);
   const auto errors_of = [&](const HoldOutOptions& o) {
     return held_out_errors(analysis.fingerprints, hold_out_lanes(analysis.fingerprints, o), predict,
                            options.threads);
   };
-  const std::vector<HeldOutError> same_floor = errors_of(lanes), between = errors_of(apart);
+  const std::vector<HeldOutError> same_floor = errors_of(ways.same_floor),
+                                  between = errors_of(ways.between_lanes);
   std::vector<HeldOutError> all = same_floor;
   all.insert(all.end(), between.begin(), between.end());
-  const VarianceCalibration before{Array3d::Ones(), h.noise_sd_uT};
+  const VarianceCalibration before{Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT};
   analysis.calibration = options.calibrate_variance ? calibrate(all, before) : before;
   analysis.held_out = {score(same_floor, before), score(same_floor, analysis.calibration),
                        score(between, before), score(between, analysis.calibration)};

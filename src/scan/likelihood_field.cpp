@@ -1,5 +1,6 @@
 #include "mstsl/scan/likelihood_field.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -11,6 +12,7 @@ namespace mstsl {
 namespace {
 
 constexpr double kReachSigmas = 3.0;
+constexpr double kNarrowestCells = 1.5;
 
 /// Catmull-Rom weights of the four samples around a place `t` of the way from the second to the third, and
 /// their derivatives by t.
@@ -28,7 +30,9 @@ struct CubicWeights {
 }  // namespace
 
 LikelihoodField::LikelihoodField(const OccupancyGrid& occupancy, const LikelihoodOptions& options)
-    : values_(occupancy.geometry()), frame_(occupancy.geometry()), sigma_m_(options.sigma_m) {
+    : values_(occupancy.geometry()),
+      frame_(occupancy.geometry()),
+      sigma_m_(std::max(options.sigma_m, kNarrowestCells * occupancy.geometry().resolution_m)) {
   assert(options.sigma_m > 0);
   const double reach_m = kReachSigmas * sigma_m_;
   const DistanceField distances(occupancy, reach_m);

@@ -103,6 +103,9 @@ void LocalMap::draw(const std::vector<BeamReturn>& returns_base, const PointSet&
   points_local_ = thinned(points_local_, options_.spacing_m);
   field_ = LikelihoodField(occupancy(), options_.likelihood);
   local_T_drawn_ = local_T_base_;
+  // The walls just drawn lie where this pose put them. Were the uncertainty kept, along a bare corridor it
+  // would grow until chance likenesses of the walls outweigh the odometry.
+  covariance_.setZero();
 }
 
 PointSet LocalMap::points_in_local() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -32,34 +33,39 @@ class ScanCost {
 
   /// The sum of 1 - likelihood over the points.
   Slope at(const Eigen::Vector3d& change) const {
-    const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(initial_.yaw + change.z()).toRotationMatrix();
-    const Eigen::Vector2d position = initial_.position() + change.head<2>();
     Slope sum;
-    for (const Eigen::Vector2d& point : points_) {
-      const Eigen::Vector2d arm = rotation * point;
-      const LikelihoodField::Sample sample = field_.sample(field_.frame().to_grid(arm + position));
-      const Eigen::Vector2d by_place = field_.frame().slope_to_map(sample.gradient_per_cell);
-      sum.value += 1.0 - sample.value;
-      sum.by_change -=
-          Eigen::Vector3d(by_place.x(), by_place.y(), arm.x() * by_place.y() - arm.y() * by_place.x());
-    }
+    for_each(change, [&](std::size_t, const Slope& point) {
+      sum.value += point.value;
+      sum.by_change += point.by_change;
+    });
     return sum;
   }
 
-  /// The sum's second derivatives, from slopes half a sigma of the field to each side. On walls that run
-  /// askew through the cells the slopes' squares (Gauss and Newton's stand-in) would claim to know the way
-  /// along a bare corridor to some centimetres; the curvatures of their little steps, up and down, cancel.
-  Eigen::Matrix3d curvature(const Eigen::Vector3d& change) const {
-    const double step_m = 0.5 * field_.sigma_m();
-    const Eigen::Vector3d steps(step_m, step_m, step_m / arm_m());
-    Eigen::Matrix3d curvature;
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d step = steps(i) * Eigen::Vector3d::Unit(i);
-      curvature.col(i) = (at(change + step).by_change - at(change - step).by_change) / (2 * steps(i));
+  /// The second derivatives of each point's part in that sum, from its slopes half a sigma of the field to
+  /// each side: along the base's own axes, so that they do not depend on how the map lies.
+  std::vector<Eigen::Matrix3d> curvatures(const Eigen::Vector3d& change) const {
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    axes.topLeftCorner<2, 2>() = pose(change).rotation();
+    const Eigen::Vector3d steps = 0.5 * units();
+    std::vector<Eigen::Matrix3d> curvatures(points_.size(), Eigen::Matrix3d::Zero());
+    for (int k = 0; k < 3; ++k) {
+      for (const double side : {-1.0, 1.0}) {
+        for_each(change + side * steps(k) * axes.col(k), [&](std::size_t i, const Slope& point) {
+          curvatures[i].col(k) += side / (2 * steps(k)) * point.by_change;
+        });
+      }
     }
-    return 0.5 * (curvature + curvature.transpose());
+    for (Eigen::Matrix3d& c : curvatures) {
+      const Eigen::Matrix3d by_map_axes = c * axes.transpose();
+      c = 0.5 * (by_map_axes + by_map_axes.transpose());
+    }
+    return curvatures;
   }
 
+  /// Changes of x, y and yaw that move the points by about a sigma of the field.
+  Eigen::Vector3d units() const { return Eigen::Vector3d(1, 1, 1 / arm_m()) * field_.sigma_m(); }
+
+ private:
   /// The typical distance of the points from the base: how far a turn moves them. Never nothing.
   double arm_m() const {
     double squares = field_.sigma_m() * field_.sigma_m();
@@ -67,7 +73,20 @@ class ScanCost {
     return std::sqrt(squares);
   }
 
- private:
+  /// Calls `use(i, slope of 1 - likelihood)` for each point.
+  template <typename Use>
+  void for_each(const Eigen::Vector3d& change, Use use) const {
+    const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(initial_.yaw + change.z()).toRotationMatrix();
+    const Eigen::Vector2d position = initial_.position() + change.head<2>();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Eigen::Vector2d arm = rotation * points_[i];
+      const LikelihoodField::Sample sample = field_.sample(field_.frame().to_grid(arm + position));
+      const Eigen::Vector2d by_place = field_.frame().slope_to_map(sample.gradient_per_cell);
+      const double by_yaw = arm.x() * by_place.y() - arm.y() * by_place.x();
+      use(i, Slope{1.0 - sample.value, -Eigen::Vector3d(by_place.x(), by_place.y(), by_yaw)});
+    }
+  }
+
   const LikelihoodField& field_;
   const PointSet& points_;
   Pose2 initial_;
@@ -121,11 +140,27 @@ ceres::GradientProblemSolver::Options solver_options(const RefineOptions& option
   return solver;
 }
 
-/// The nearest symmetric matrix without negative eigenvalues.
-Eigen::Matrix3d without_negative_part(const Eigen::Matrix3d& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetric);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         eigen.eigenvectors().transpose();
+/// What the points surely say of the pose: the sum of their curvatures, in each of its own directions less
+/// two standard errors, and nothing where that leaves nothing. Walls that run askew through the cells are
+/// drawn as stairs; along a bare corridor the points' curvatures on them are as often up as down and add up
+/// to little, but seldom to zero.
+Eigen::Matrix3d sure_information(const ScanCost& scan, const Eigen::Vector3d& change) {
+  constexpr double kStandardErrors = 2.0;
+  const std::vector<Eigen::Matrix3d> curvatures = scan.curvatures(change);
+  // In units in which a turn and a shift compare.
+  const Eigen::DiagonalMatrix<double, 3> units(scan.units());
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Eigen::Matrix3d& c : curvatures) sum += units * c * units;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum);
+  Eigen::Vector3d sure;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d direction = units * eigen.eigenvectors().col(k);
+    double squares = 0;
+    for (const Eigen::Matrix3d& c : curvatures) squares += std::pow(direction.dot(c * direction), 2);
+    sure(k) = std::max(0.0, eigen.eigenvalues()(k) - kStandardErrors * std::sqrt(squares));
+  }
+  const Eigen::Matrix3d directions = units.inverse() * eigen.eigenvectors();
+  return directions * sure.asDiagonal() * directions.transpose();
 }
 
 }  // namespace
@@ -139,7 +174,7 @@ Refinement refine_pose(const LikelihoodField& field, const PointSet& points_base
                        const PosePrior& prior, const RefineOptions& options) {
   if (points_base_m.empty()) return {.map_T_base = prior.mean, .cost = 1.0, .covariance = prior.covariance};
   const ScanCost scan(field, points_base_m, initial);
-  const Eigen::Vector3d units = Eigen::Vector3d(1, 1, 1 / scan.arm_m()) * field.sigma_m();
+  const Eigen::Vector3d units = scan.units();
   const ceres::GradientProblem problem(
       new NegativeLogPosterior(scan, prior, options.points_per_error, units));
   ceres::GradientProblemSolver::Summary summary;
@@ -149,8 +184,9 @@ Refinement refine_pose(const LikelihoodField& field, const PointSet& points_base
   const Eigen::Vector3d change = units.cwiseProduct(parameters);
   Refinement refined;
   refined.map_T_base = scan.pose(change);
-  refined.cost = scan.at(change).value / static_cast<double>(points_base_m.size());
-  refined.information = without_negative_part(scan.curvature(change)) / options.points_per_error;
+  // Interpolation may overshoot the top of a wall a little.
+  refined.cost = std::max(0.0, scan.at(change).value / static_cast<double>(points_base_m.size()));
+  refined.information = sure_information(scan, change) / options.points_per_error;
   refined.covariance = (refined.information + prior.covariance.inverse()).inverse();
   refined.converged = summary.termination_type == ceres::CONVERGENCE;
   return refined;

@@ -6,7 +6,8 @@
 #include "mstsl/core/result.hpp"
 #include "mstsl/sim/world.hpp"
 
-/// Plans of the built-in worlds, spots not yet settled. Each stands around the map's origin, its long side along x.
+/// Plans of the built-in worlds, spots not yet settled. Each stands around the map's origin, its long side
+/// along x.
 namespace mstsl::sim {
 
 WorldPlan plan_corridor(const WorldOptions& options, const Eigen::Vector2d& size_m, Random& random);
@@ -14,7 +15,8 @@ WorldPlan plan_carpark(const WorldOptions& options, const Eigen::Vector2d& size_
 WorldPlan plan_warehouse(const WorldOptions& options, const Eigen::Vector2d& size_m, Random& random);
 WorldPlan plan_office_wing(const WorldOptions& options, const Eigen::Vector2d& size_m, Random& random);
 
-/// Random streams that a world's making is split into: what stands about never changes the walls or their steel.
+/// Random streams that a world's making is split into: what stands about never changes the walls or their
+/// steel.
 enum WorldStream : std::uint64_t { kBuildingStream = 1, kThingsStream = 2 };
 
 }  // namespace mstsl::sim

@@ -1,13 +1,15 @@
 #include <cmath>
 #include <vector>
 
-#include "built_in_worlds.hpp"
 #include "mstsl/core/angles.hpp"
+
+#include "built_in_worlds.hpp"
 #include "steelwork.hpp"
 #include "walls.hpp"
 
-/// An office loop after the real corridor loop (61 x 22 m): two long corridors, two short ones with a lift lobby, all
-/// four ends running on as stubs. One half is the other turned by 180 deg, but for centimetres as built.
+/// An office loop after the real corridor loop (61 x 22 m): two long corridors, two short ones with a lift
+/// lobby, all four ends running on as stubs. One half is the other turned by 180 deg, but for centimetres as
+/// built.
 namespace mstsl::sim {
 namespace {
 
@@ -58,11 +60,15 @@ Layout layout_of(const Vector2d& size_m) {
 
 /// The outer boundary's southern and eastern half, counter-clockwise.
 std::vector<Wall> outer_half(const Layout& l) {
-  const Vector2d p0(-l.x, -l.y), p1(l.x, -l.y), p2(l.x, -l.inner_y), p3(l.outer_x, -l.inner_y), p4(l.outer_x, l.inner_y),
-      p5(l.x, l.inner_y), p6(l.x, l.y);
+  const Vector2d p0(-l.x, -l.y), p1(l.x, -l.y), p2(l.x, -l.inner_y), p3(l.outer_x, -l.inner_y),
+      p4(l.outer_x, l.inner_y), p5(l.x, l.inner_y), p6(l.x, l.y);
   const Relief stub_door{0.5 * kLongWidth_m, 1.6, 0.12, true};
-  return {{p0, p1, piers((p1 - p0).norm())}, {p1, p2, {stub_door}}, {p2, p3, {{2.0, kDoorWidth_m, kDoorDepth_m, true}}},
-          {p3, p4, lobby((p4 - p3).norm())}, {p4, p5, {{2.0, kDoorWidth_m, kDoorDepth_m, true}}}, {p5, p6, {stub_door}}};
+  return {{p0, p1, piers((p1 - p0).norm())},
+          {p1, p2, {stub_door}},
+          {p2, p3, {{2.0, kDoorWidth_m, kDoorDepth_m, true}}},
+          {p3, p4, lobby((p4 - p3).norm())},
+          {p4, p5, {{2.0, kDoorWidth_m, kDoorDepth_m, true}}},
+          {p5, p6, {stub_door}}};
 }
 
 /// The inner block's southern and western half, clockwise.
@@ -70,10 +76,15 @@ std::vector<Wall> inner_half(const Layout& l) {
   const Vector2d q0(l.inner_x, -l.inner_y), q1(-l.inner_x, -l.inner_y), q2(-l.inner_x, l.inner_y);
   const double side = (q2 - q1).norm();
   return {{q0, q1, doors((q1 - q0).norm())},
-          {q1, q2, {{0.22 * side, kDoorWidth_m, 0.15, true}, {0.5 * side, 3.0, 0.4, false}, {0.78 * side, kDoorWidth_m, 0.15, true}}}};
+          {q1,
+           q2,
+           {{0.22 * side, kDoorWidth_m, 0.15, true},
+            {0.5 * side, 3.0, 0.4, false},
+            {0.78 * side, kDoorWidth_m, 0.15, true}}}};
 }
 
-void add_ring(WorldPlan& plan, std::vector<Wall> half, const WorldOptions& options, const Furnishing& furnishing, Random& random) {
+void add_ring(WorldPlan& plan, std::vector<Wall> half, const WorldOptions& options,
+              const Furnishing& furnishing, Random& random) {
   const std::vector<Wall> copy = opposite(half, options.asymmetry_m, random);
   half.insert(half.end(), copy.begin(), copy.end());
   std::vector<Vector2d> points = corners(half);
@@ -84,7 +95,7 @@ void add_ring(WorldPlan& plan, std::vector<Wall> half, const WorldOptions& optio
 
 /// Floor, ceiling and the trays under it, corridor by corridor.
 void add_corridor_steel(WorldPlan& plan, Random& random) {
-  constexpr double kBeside_m = 1.0;      // slabs and beams run on behind the walls
+  constexpr double kBeside_m = 1.0;  // slabs and beams run on behind the walls
   constexpr double kFloor_m = -0.06, kCeiling_m = 3.2;
   for (const Lane& lane : plan.lanes) {
     const Vector2d along = lane.center.b - lane.center.a;
@@ -96,7 +107,9 @@ void add_corridor_steel(WorldPlan& plan, Random& random) {
       add_beams(plan.steel, start, area, z, 0.5 * kBay_m, random);
     }
     for (const double side : {-0.3, 0.35})
-      add_tray(plan.steel, start * Segment{{0, side * lane.free_width_m}, {along.norm(), side * lane.free_width_m}}, 2.6, random);
+      add_tray(plan.steel,
+               start * Segment{{0, side * lane.free_width_m}, {along.norm(), side * lane.free_width_m}}, 2.6,
+               random);
   }
   constexpr double kShaft_m = 2.0;
   for (const double side : {-1.0, 1.0})

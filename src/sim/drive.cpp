@@ -16,7 +16,9 @@ enum Stream : std::uint64_t { kOdometry = 1, kMagnetometer, kImu, kLidar, kPeopl
 class Clock {
  public:
   explicit Clock(double rate_hz) : rate_hz_(rate_hz) {}
-  double next_s() const { return rate_hz_ > 0 ? static_cast<double>(count_) / rate_hz_ : std::numeric_limits<double>::infinity(); }
+  double next_s() const {
+    return rate_hz_ > 0 ? static_cast<double>(count_) / rate_hz_ : std::numeric_limits<double>::infinity();
+  }
   double period_s() const { return 1.0 / rate_hz_; }
   void tick() { ++count_; }
 
@@ -84,22 +86,26 @@ void drive(const World& world, const RobotOptions& robot, const Trajectory& traj
     const Vector3d field_map = field ? field(map_T_base, position) : world.field_uT(position);
     const Twist twist = twist_at(trajectory, t);
     const double rim = 0.5 * robot.odometry.wheel_base_m * twist.turn_rad_s;
-    send(FieldReading{trajectory.start + t,
-                      magnetometer.read(map_T_sensor.linear().transpose() * field_map, twist.forward_m_s - rim,
-                                        twist.forward_m_s + rim, mag_clock.period_s())});
+    send(
+        FieldReading{trajectory.start + t,
+                     magnetometer.read(map_T_sensor.linear().transpose() * field_map, twist.forward_m_s - rim,
+                                       twist.forward_m_s + rim, mag_clock.period_s())});
   };
   const auto rates_at = [&](double t) {
     const Vector3d rates = base_R_sensor.transpose() * Vector3d(0, 0, twist_at(trajectory, t).turn_rad_s);
     send(ImuReading{trajectory.start + t, gyroscope.read(rates), {}});
   };
   const auto scan_at = [&](double t) {
-    if (sinks.event) send(scan(world, people, trajectory, t, robot.rig.base_T_laser, robot.lidar, lidar_random));
+    if (sinks.event)
+      send(scan(world, people, trajectory, t, robot.rig.base_T_laser, robot.lidar, lidar_random));
   };
 
   const double end_s = trajectory.duration_s() + 1e-9;
-  Clock odometry_clock(robot.odometry.rate_hz), imu_clock(robot.imu.rate_hz), lidar_clock(robot.lidar.rate_hz);
+  Clock odometry_clock(robot.odometry.rate_hz), imu_clock(robot.imu.rate_hz),
+      lidar_clock(robot.lidar.rate_hz);
   while (true) {
-    const double t = std::min({odometry_clock.next_s(), mag_clock.next_s(), imu_clock.next_s(), lidar_clock.next_s()});
+    const double t =
+        std::min({odometry_clock.next_s(), mag_clock.next_s(), imu_clock.next_s(), lidar_clock.next_s()});
     if (!(t <= end_s)) break;
     if (odometry_clock.next_s() == t) odometry_at(t), odometry_clock.tick();
     if (mag_clock.next_s() == t) field_at(t), mag_clock.tick();
@@ -108,9 +114,18 @@ void drive(const World& world, const RobotOptions& robot, const Trajectory& traj
   }
 }
 
-void drive(const World& world, const RobotOptions& robot, const Route& route, Stamp start, const Random& random,
-           const DriveSinks& sinks, const FieldSource& field) {
+void drive(const World& world, const RobotOptions& robot, const Route& route, Stamp start,
+           const Random& random, const DriveSinks& sinks, const FieldSource& field) {
   drive(world, robot, follow(route, robot.motion, start, random.fork(kMotion)), random, sinks, field);
+}
+
+LaserScan first_scan(const World& world, const RobotOptions& robot, const Route& route, Stamp start,
+                     const Random& random) {
+  if (route.waypoints_m.empty()) return {};
+  const Trajectory standing{start, 0.01, {Pose2::from(route.waypoints_m.front(), route.start_yaw_rad)}};
+  const People people(world, robot.people, random.fork(kPeople));
+  Random lidar_random = random.fork(kLidar);
+  return scan(world, people, standing, 0.0, robot.rig.base_T_laser, robot.lidar, lidar_random);
 }
 
 }  // namespace mstsl::sim

@@ -18,7 +18,9 @@ constexpr double kLookahead_m = 0.5;
 constexpr double kSharpCorner_rad = radians(50.0);
 constexpr double kArrived_m = 0.01;
 
-double heading(const Vector2d& from, const Vector2d& to) { return std::atan2(to.y() - from.y(), to.x() - from.x()); }
+double heading(const Vector2d& from, const Vector2d& to) {
+  return std::atan2(to.y() - from.y(), to.x() - from.x());
+}
 
 /// A line that is driven without stopping.
 struct Stretch {
@@ -54,7 +56,8 @@ std::vector<Stretch> stretches_of(const Route& route) {
     std::vector<Vector2d>& points = stretches.back().points_m;
     if ((point - points.back()).norm() < kArrived_m) continue;
     if (points.size() > 1) {
-      const double corner = angle_between(heading(points[points.size() - 2], points.back()), heading(points.back(), point));
+      const double corner =
+          angle_between(heading(points[points.size() - 2], points.back()), heading(points.back(), point));
       if (std::abs(corner) > kSharpCorner_rad) {
         stretches.push_back({{points.back(), point}});
         continue;
@@ -97,12 +100,14 @@ class Driver {
     double along_m = 0.0, speed = 0.0;
     while (true) {
       // How much is left is measured along the last leg near the end, by the driven length before.
-      const double to_end_m = whole_m - along_m < kLookahead_m ? -(inverse(last) * pose_.position()).x() : whole_m - along_m;
+      const double to_end_m =
+          whole_m - along_m < kLookahead_m ? -(inverse(last) * pose_.position()).x() : whole_m - along_m;
       if (to_end_m < kArrived_m) return;
       const double error = angle_between(pose_.yaw, target_heading(stretch, along_m));
       const double curvature = 2.0 * std::sin(error) / kLookahead_m;
-      const double wanted = std::min({motion_.speed_m_s, std::sqrt(2.0 * motion_.acceleration_m_s2 * to_end_m) + 1e-3,
-                                      motion_.turn_rate_rad_s / std::max(std::abs(curvature), 1e-9)});
+      const double wanted =
+          std::min({motion_.speed_m_s, std::sqrt(2.0 * motion_.acceleration_m_s2 * to_end_m) + 1e-3,
+                    motion_.turn_rate_rad_s / std::max(std::abs(curvature), 1e-9)});
       const double change = motion_.acceleration_m_s2 * kStep_s;
       speed = std::clamp(wanted, speed - 2.0 * change, speed + change);
       const double step_m = speed * kStep_s;
@@ -127,7 +132,8 @@ class Driver {
   void move(double forward_m, double turn_rad) {
     // Along the chord of the arc: exact for constant speeds to second order.
     const double chord_yaw = pose_.yaw + 0.5 * turn_rad;
-    pose_ = Pose2::from(pose_.position() + forward_m * Vector2d(std::cos(chord_yaw), std::sin(chord_yaw)), pose_.yaw + turn_rad);
+    pose_ = Pose2::from(pose_.position() + forward_m * Vector2d(std::cos(chord_yaw), std::sin(chord_yaw)),
+                        pose_.yaw + turn_rad);
     poses_.push_back(pose_);
   }
 
@@ -143,7 +149,8 @@ class Driver {
 Trajectory follow(const Route& route, const MotionOptions& motion, Stamp start, const Random& random) {
   Trajectory trajectory{start, kStep_s, {}};
   if (route.waypoints_m.empty()) return trajectory;
-  Driver driver(Pose2::from(route.waypoints_m.front(), route.start_yaw_rad), motion, random, trajectory.poses);
+  Driver driver(Pose2::from(route.waypoints_m.front(), route.start_yaw_rad), motion, random,
+                trajectory.poses);
   driver.stand(motion.standstill_s);
   if (motion.initial_turn_rad != 0.0) {
     driver.turn(motion.initial_turn_rad);

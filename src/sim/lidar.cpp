@@ -9,12 +9,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kFarFrom_m = 10.0;        // where the data sheet changes to the larger noise
-constexpr double kResolution_m = 0.001;    // ranges come in whole millimetres
-constexpr double kWhiteSheet = 0.9;        // reflectivity that the data sheet's ranges are given for
+constexpr double kFarFrom_m = 10.0;      // where the data sheet changes to the larger noise
+constexpr double kResolution_m = 0.001;  // ranges come in whole millimetres
+constexpr double kWhiteSheet = 0.9;      // reflectivity that the data sheet's ranges are given for
 
 /// The nearest leg along a ray, as range and cosine of incidence.
-std::optional<RayHit> cast(const std::vector<Leg>& legs, const Vector2d& origin_m, const Vector2d& direction) {
+std::optional<RayHit> cast(const std::vector<Leg>& legs, const Vector2d& origin_m,
+                           const Vector2d& direction) {
   std::optional<RayHit> nearest;
   for (const Leg& leg : legs) {
     const Vector2d to_leg = leg.center_m - origin_m;
@@ -22,12 +23,14 @@ std::optional<RayHit> cast(const std::vector<Leg>& legs, const Vector2d& origin_
     const double across2 = to_leg.squaredNorm() - along * along, radius2 = leg.radius_m * leg.radius_m;
     if (along <= 0 || across2 >= radius2) continue;
     const double depth = std::sqrt(radius2 - across2);
-    if (along > depth && (!nearest || along - depth < nearest->range_m)) nearest = RayHit{along - depth, depth / leg.radius_m, 0};
+    if (along > depth && (!nearest || along - depth < nearest->range_m))
+      nearest = RayHit{along - depth, depth / leg.radius_m, 0};
   }
   return nearest;
 }
 
-/// Probability that the echo is strong enough: received power goes with cos(incidence) / range^2 (diffuse wall).
+/// Probability that the echo is strong enough: received power goes with cos(incidence) / range^2 (diffuse
+/// wall).
 double detection_probability(const RayHit& hit, const LidarOptions& options) {
   const double reach = options.detection_range_m / hit.range_m;
   const double power = options.reflectivity / kWhiteSheet * hit.cos_incidence * reach * reach;
@@ -37,10 +40,14 @@ double detection_probability(const RayHit& hit, const LidarOptions& options) {
 
 float measured(const std::optional<RayHit>& hit, const LidarOptions& options, Random& random) {
   constexpr float kNothing = std::numeric_limits<float>::infinity();
-  if (!hit || random.chance(options.dropout) || !random.chance(detection_probability(*hit, options))) return kNothing;
-  const double noisy = hit->range_m + (hit->range_m < kFarFrom_m ? options.near_noise_m : options.far_noise_m) * random.normal();
+  if (!hit || random.chance(options.dropout) || !random.chance(detection_probability(*hit, options)))
+    return kNothing;
+  const double noisy =
+      hit->range_m +
+      (hit->range_m < kFarFrom_m ? options.near_noise_m : options.far_noise_m) * random.normal();
   const double rounded = kResolution_m * std::round(noisy / kResolution_m);
-  return rounded >= options.range_min_m && rounded <= options.range_max_m ? static_cast<float>(rounded) : kNothing;
+  return rounded >= options.range_min_m && rounded <= options.range_max_m ? static_cast<float>(rounded)
+                                                                          : kNothing;
 }
 
 }  // namespace
@@ -67,7 +74,8 @@ LaserScan scan(const World& world, const People& people, const Trajectory& traje
     const Vector2d origin = base.position() + turn * lever_m;
     const Vector2d direction = (turn * mounting * Vector2d(std::cos(angle), std::sin(angle))).normalized();
     std::optional<RayHit> hit = world.surfaces().cast(origin, direction, options.range_max_m);
-    if (const auto leg = cast(legs, origin, direction); leg && (!hit || leg->range_m < hit->range_m)) hit = leg;
+    if (const auto leg = cast(legs, origin, direction); leg && (!hit || leg->range_m < hit->range_m))
+      hit = leg;
     scan.ranges_m.push_back(measured(hit, options, random));
   }
   return scan;

@@ -3,8 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "built_in_worlds.hpp"
 #include "mstsl/sim/world.hpp"
+
+#include "built_in_worlds.hpp"
 #include "things.hpp"
 
 namespace mstsl::sim {
@@ -44,8 +45,8 @@ Result<World> make_world(std::string_view name, const WorldOptions& options, con
     constexpr double kLargest_m = 500.0;
     if ((size.array() < kind.least_m.array()).any() || (size.array() > kLargest_m).any())
       return Error("world '" + std::string(name) + "' cannot be built in this size; give it at least " +
-                   std::to_string(static_cast<int>(kind.least_m.x())) + " x " + std::to_string(static_cast<int>(kind.least_m.y())) +
-                   " m and at most 500 x 500 m");
+                   std::to_string(static_cast<int>(kind.least_m.x())) + " x " +
+                   std::to_string(static_cast<int>(kind.least_m.y())) + " m and at most 500 x 500 m");
     Random building = random.fork(kBuildingStream);
     WorldPlan plan = kind.plan(options, size, building);
     plan.earth = options.earth;

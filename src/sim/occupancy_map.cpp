@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "mstsl/grid/ray.hpp"
+
 namespace mstsl::sim {
 namespace {
 
@@ -20,16 +22,16 @@ GridGeometry geometry_of(const World& world, double resolution_m) {
   }
   const Vector2d low = ((area.min().array() - kMargin_m) / resolution_m).floor() * resolution_m;
   const Vector2d size = (area.max() - low).array() + kMargin_m;
-  return {resolution_m, static_cast<int>(size.x() / resolution_m) + 1, static_cast<int>(size.y() / resolution_m) + 1, Pose2::from(low, 0)};
+  return {resolution_m, static_cast<int>(size.x() / resolution_m) + 1,
+          static_cast<int>(size.y() / resolution_m) + 1, Pose2::from(low, 0)};
 }
 
 void draw(OccupancyGrid& map, const Segment& segment) {
-  constexpr double kStepsPerCell = 4.0;  // misses at most the tip of a corner
-  const int steps = 1 + static_cast<int>(kStepsPerCell * length(segment) / map.geometry().resolution_m);
-  for (int i = 0; i <= steps; ++i) {
-    const Cell cell = map.geometry().cell_at(point_along(segment, static_cast<double>(i) / steps));
-    if (map.contains(cell)) map[cell] = CellState::kOccupied;
-  }
+  const GridGeometry& geometry = map.geometry();
+  walk_grid(geometry, geometry.to_grid(segment.a), geometry.to_grid(segment.b), [&](Cell cell, double) {
+    map[cell] = CellState::kOccupied;
+    return true;
+  });
 }
 
 /// Marks what can be reached from the lanes inside the footprint as free.
@@ -43,12 +45,14 @@ void flood(OccupancyGrid& map, const World& world) {
   };
   for (const Lane& lane : world.lanes()) {
     const int steps = 1 + static_cast<int>(length(lane.center) / map.geometry().resolution_m);
-    for (int i = 0; i <= steps; ++i) visit(map.geometry().cell_at(point_along(lane.center, static_cast<double>(i) / steps)));
+    for (int i = 0; i <= steps; ++i)
+      visit(map.geometry().cell_at(point_along(lane.center, static_cast<double>(i) / steps)));
   }
   while (!open.empty()) {
     const Cell cell = open.back();
     open.pop_back();
-    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) visit({cell.column + step.column, cell.row + step.row});
+    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}})
+      visit({cell.column + step.column, cell.row + step.row});
   }
 }
 

@@ -1,8 +1,9 @@
 #include <cmath>
 #include <vector>
 
-#include "built_in_worlds.hpp"
 #include "mstsl/core/angles.hpp"
+
+#include "built_in_worlds.hpp"
 #include "steelwork.hpp"
 #include "walls.hpp"
 
@@ -34,22 +35,27 @@ Layout layout_of(const Vector2d& size_m) {
 /// Where a room's door is, across the room: alternating, so that doors come in pairs.
 double door_shift(int room) { return (room % 2 == 0 ? 1.0 : -1.0) * (0.5 * kRoomWidth_m - 0.9); }
 
-/// The frame of a room's door: x along the corridor's wall, y into the corridor. `side` is +1 north, -1 south.
+/// The frame of a room's door: x along the corridor's wall, y into the corridor. `side` is +1 north, -1
+/// south.
 Pose2 door_frame(const Layout& l, int room, double side) {
   return {l.room_x(room) + door_shift(room), side * 0.5 * kCorridor_m, side > 0 ? kPi : 0.0};
 }
 
-/// Desk legs, a drawer unit and the open door's leaf, in the room's frame (origin at its middle, y to the window).
-void furnish_room(WorldPlan& plan, const Pose2& map_T_room, const Pose2& map_T_door, double depth_m, Random& random) {
+/// Desk legs, a drawer unit and the open door's leaf, in the room's frame (origin at its middle, y to the
+/// window).
+void furnish_room(WorldPlan& plan, const Pose2& map_T_room, const Pose2& map_T_door, double depth_m,
+                  Random& random) {
   const Vector2d desk(random.uniform(-0.3, 0.3), 0.5 * depth_m - random.uniform(1.0, 1.5));
   for (const double x : {-0.75, 0.75})
     for (const double y : {-0.35, 0.35})
-      for (const Segment& leg : box(map_T_room * Pose2{desk.x() + x, desk.y() + y, 0}, {0.05, 0.05})) plan.walls.push_back(leg);
+      for (const Segment& leg : box(map_T_room * Pose2{desk.x() + x, desk.y() + y, 0}, {0.05, 0.05}))
+        plan.walls.push_back(leg);
   const Pose2 drawers = map_T_room * Pose2{desk.x() + (random.chance(0.5) ? 0.5 : -0.5), desk.y(), 0};
   for (const Segment& piece : box(drawers, {0.42, 0.6})) plan.walls.push_back(piece);
   add_cabinet(plan.steel, drawers, {0.42, 0.6}, 0.6, random);
 
-  const Pose2 hinge = map_T_door * Pose2{0.5 * kDoor_m - 0.03, -kPartition_m - 0.01, radians(-90) + random.normal(0, radians(6))};
+  const Pose2 hinge = map_T_door * Pose2{0.5 * kDoor_m - 0.03, -kPartition_m - 0.01,
+                                         radians(-90) + random.uniform(radians(-1), radians(25))};
   plan.walls.push_back(hinge * Segment{{0, 0}, {0.88, 0}});
   add_radiator(plan.steel, map_T_room * Pose2{0, 0.5 * depth_m - 0.08, 0}, 1.6, random);
   add_door_frame(plan.steel, map_T_door, kDoor_m, random);
@@ -57,21 +63,30 @@ void furnish_room(WorldPlan& plan, const Pose2& map_T_room, const Pose2& map_T_d
 
 void add_room(WorldPlan& plan, const Layout& l, int room, double side, Random& random) {
   const Pose2 door = door_frame(l, room, side);
-  const Pose2 map_T_room{l.room_x(room), side * (0.5 * kCorridor_m + kPartition_m + 0.5 * l.depth_m), side > 0 ? 0.0 : kPi};
+  const Pose2 map_T_room{l.room_x(room), side * (0.5 * kCorridor_m + kPartition_m + 0.5 * l.depth_m),
+                         side > 0 ? 0.0 : kPi};
   const double half = 0.5 * (kRoomWidth_m - kPartition_m), near = -0.5 * l.depth_m;
   // From the door's one jamb round the room to the other; the door lies at `shift` in the room's frame.
   const double shift = (inverse(map_T_room) * door.position()).x(), gap = 0.5 * kDoor_m;
   std::vector<Vector2d> points;
-  for (const Vector2d& p : {Vector2d(shift + gap, near - kPartition_m), Vector2d(shift + gap, near), Vector2d(half, near), Vector2d(half, -near),
-                            Vector2d(-half, -near), Vector2d(-half, near), Vector2d(shift - gap, near), Vector2d(shift - gap, near - kPartition_m)})
+  for (const Vector2d& p :
+       {Vector2d(shift + gap, near - kPartition_m), Vector2d(shift + gap, near), Vector2d(half, near),
+        Vector2d(half, -near), Vector2d(-half, -near), Vector2d(-half, near), Vector2d(shift - gap, near),
+        Vector2d(shift - gap, near - kPartition_m)})
     points.push_back(map_T_room * p);
   for (const Segment& piece : polyline(points, false)) plan.walls.push_back(piece);
   furnish_room(plan, map_T_room, door, l.depth_m, random);
 
-  for (const double along : {-0.25, 0.25})  // cupboards along a side wall, free standing chairs
-    plan.spots.push_back({ThingKind::kCabinet, map_T_room * Pose2{-half, along * l.depth_m, radians(-90)}, 0.5, std::nullopt});
-  plan.spots.push_back({ThingKind::kTrolley, map_T_room * Pose2{0.9, -0.1 * l.depth_m, radians(90)}, 0.5, std::nullopt});
-  plan.lanes.push_back({{door * Vector2d(0, 0.5 * kCorridor_m), door * Vector2d(0, -kPartition_m - 1.6)}, kDoor_m - 0.2});
+  // Cupboards along the wall away from the door, and a chair or box that never stands twice in one place.
+  const double away = shift > 0 ? -1.0 : 1.0;
+  for (const double along : {-0.25, 0.25})
+    plan.spots.push_back({ThingKind::kCabinet,
+                          map_T_room * Pose2{away * half, along * l.depth_m, away * radians(90)}, 0.5,
+                          std::nullopt});
+  plan.spots.push_back(
+      {ThingKind::kTrolley, map_T_room * Pose2{away * 0.7, 0.0, radians(90)}, 0.5, std::nullopt});
+  plan.lanes.push_back(
+      {{door * Vector2d(0, 0.5 * kCorridor_m), door * Vector2d(0, -kPartition_m - 1.6)}, kDoor_m - 0.2});
 }
 
 /// The corridor's walls between the doors, and its two ends.
@@ -97,7 +112,8 @@ void add_structure(WorldPlan& plan, const Layout& l, Random& random) {
   }
   for (const double y : {-0.5, 0.6}) add_tray(plan.steel, {{-l.x, y}, {l.x, y}}, 2.6, random);
   for (double x = -l.x; x <= l.x; x += 2 * kRoomWidth_m)
-    for (const double y : {-l.y, -0.5 * kCorridor_m - 0.2, 0.5 * kCorridor_m + 0.2, l.y}) add_concrete_column(plan.steel, {x, y}, kHeight_m, random);
+    for (const double y : {-l.y, -0.5 * kCorridor_m - 0.2, 0.5 * kCorridor_m + 0.2, l.y})
+      add_concrete_column(plan.steel, {x, y}, kHeight_m, random);
 }
 
 }  // namespace

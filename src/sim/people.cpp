@@ -12,13 +12,15 @@ People::People(const World& world, const PeopleOptions& options, const Random& r
   for (const Lane& lane : world.lanes()) lanes_m += length(lane.center);
   const double expected = lanes_m * options.per_100m / 100.0;
   Random own = random;
-  const auto count = static_cast<std::size_t>(expected) + (own.chance(expected - std::floor(expected)) ? 1 : 0);
+  const auto count =
+      static_cast<std::size_t>(expected) + (own.chance(expected - std::floor(expected)) ? 1 : 0);
   for (std::size_t i = 0; i < count && !world.lanes().empty(); ++i) {
     const Lane& lane = world.lanes()[own.index(world.lanes().size())];
     const Vector2d along = (lane.center.b - lane.center.a).normalized();
     const double beside_m = own.uniform(-0.3, 0.3) * lane.free_width_m;
     const Vector2d aside = beside_m * Vector2d(-along.y(), along.x());
-    walkers_.push_back({{lane.center.a + aside, lane.center.b + aside}, own.uniform(0.0, 2.0 * length(lane.center)),
+    walkers_.push_back({{lane.center.a + aside, lane.center.b + aside},
+                        own.uniform(0.0, 2.0 * length(lane.center)),
                         options.speed_m_s * own.uniform(0.7, 1.3)});
   }
 }

@@ -36,7 +36,8 @@ Rig tilted_rig(const Vector3d& roll_pitch_yaw_rad) {
   return rig;
 }
 
-WheelOdometry::WheelOdometry(const OdometryOptions& options, const Random& random) : options_(options), random_(random) {
+WheelOdometry::WheelOdometry(const OdometryOptions& options, const Random& random)
+    : options_(options), random_(random) {
   const double common = options.scale_sigma * random_.normal();
   // Wheels whose scales differ by d turn the count by d / wheel_base for each metre.
   const double difference = options.drift_sigma_rad_per_m * options.wheel_base_m * random_.normal();
@@ -53,7 +54,8 @@ const Pose2& WheelOdometry::advance(const Pose2& true_motion) {
   const auto counted = [&](double rolled_m, double scale) {
     const double moved = std::abs(rolled_m);
     double count = scale * rolled_m + options_.noise_m_per_sqrt_m * std::sqrt(moved) * random_.normal();
-    if (random_.chance(0.5 * options_.slips_per_m * moved)) count -= options_.slip_m * std::log1p(-random_.uniform());
+    if (random_.chance(0.5 * options_.slips_per_m * moved))
+      count -= options_.slip_m * std::log1p(-random_.uniform());
     return count;
   };
   const double left = counted(arc - options_.wheel_base_m * half_turn, left_scale_);
@@ -61,13 +63,15 @@ const Pose2& WheelOdometry::advance(const Pose2& true_motion) {
   const double turn = (right - left) / options_.wheel_base_m;
   const double sinc = std::abs(turn) < 1e-9 ? 1.0 : std::sin(0.5 * turn) / (0.5 * turn);
   const double forward = 0.5 * (left + right) * sinc;
-  // A path measured by a walker also moves a little sideways; no wheel sees that, yet odometry must follow the path.
+  // A path measured by a walker also moves a little sideways; no wheel sees that, yet odometry must follow
+  // the path.
   const Eigen::Vector2d step = Pose2{0, 0, 0.5 * turn} * Eigen::Vector2d(forward, sideways);
   odom_T_base_ = odom_T_base_ * Pose2{step.x(), step.y(), turn};
   return odom_T_base_;
 }
 
-Magnetometer::Magnetometer(const MagnetometerOptions& options, const Random& random) : options_(options), random_(random) {
+Magnetometer::Magnetometer(const MagnetometerOptions& options, const Random& random)
+    : options_(options), random_(random) {
   bias_uT_ = normal3(options.bias_sigma_uT, random_);
   left_motor_ = random_direction(random_);
   right_motor_ = random_direction(random_);

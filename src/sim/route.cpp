@@ -6,7 +6,8 @@ namespace mstsl::sim {
 
 double length(const Route& route) {
   double sum = 0.0;
-  for (std::size_t i = 1; i < route.waypoints_m.size(); ++i) sum += (route.waypoints_m[i] - route.waypoints_m[i - 1]).norm();
+  for (std::size_t i = 1; i < route.waypoints_m.size(); ++i)
+    sum += (route.waypoints_m[i] - route.waypoints_m[i - 1]).norm();
   return sum;
 }
 

@@ -50,20 +50,24 @@ Result<Vector2d> random_waypoint(const World& world, const RunOptions& options, 
                " m of room around the robot; lower the clearance");
 }
 
-Result<Route> route_from(const World& world, const Vector2d& waypoint_m, const RunOptions& options, const Random& random) {
+Result<Route> route_from(const World& world, const Vector2d& waypoint_m, const RunOptions& options,
+                         const Random& random) {
   Random own = random;
   const double start_yaw = own.uniform(-kPi, kPi);
   for (int i = 0; i < kTries && !world.lanes().empty(); ++i) {
     const Vector2d goal = point_by_lanes(world, options.lateral_m, own);
     // Nearer than this even a crooked way is seldom long enough; planning to it would be in vain.
-    if ((goal - waypoint_m).norm() < 0.5 * options.length_m || !is_roomy(world, goal, options.path.clearance_m)) continue;
+    if ((goal - waypoint_m).norm() < 0.5 * options.length_m ||
+        !is_roomy(world, goal, options.path.clearance_m))
+      continue;
     const auto path = plan_path(world, waypoint_m, goal, options.path);
     if (!path) continue;
     const Route whole{start_yaw, *path};
     if (length(whole) >= options.length_m) return truncated(whole, options.length_m);
   }
-  return Error("no route of " + std::to_string(options.length_m) + " m starts at (" + std::to_string(waypoint_m.x()) + ", " +
-               std::to_string(waypoint_m.y()) + ") in world '" + world.name() + "'; ask for a shorter run");
+  return Error("no route of " + std::to_string(options.length_m) + " m starts at (" +
+               std::to_string(waypoint_m.x()) + ", " + std::to_string(waypoint_m.y()) + ") in world '" +
+               world.name() + "'; ask for a shorter run");
 }
 
 Result<Route> random_run(const World& world, const RunOptions& options, const Random& random) {

@@ -32,7 +32,8 @@ Eigen::Vector2d point_along(const Segment& segment, double fraction) {
 double distance(const Eigen::Vector2d& point_m, const Segment& segment) {
   const Eigen::Vector2d along = segment.b - segment.a;
   const double squared = along.squaredNorm();
-  const double fraction = squared > 0 ? std::clamp((point_m - segment.a).dot(along) / squared, 0.0, 1.0) : 0.0;
+  const double fraction =
+      squared > 0 ? std::clamp((point_m - segment.a).dot(along) / squared, 0.0, 1.0) : 0.0;
   return (point_m - point_along(segment, fraction)).norm();
 }
 
@@ -41,12 +42,16 @@ bool intersect(const Segment& first, const Segment& second) {
          side(second, first.a) * side(second, first.b) <= 0;
 }
 
-Segment operator*(const Pose2& a_T_b, const Segment& segment_b) { return {a_T_b * segment_b.a, a_T_b * segment_b.b}; }
+Segment operator*(const Pose2& a_T_b, const Segment& segment_b) {
+  return {a_T_b * segment_b.a, a_T_b * segment_b.b};
+}
 
 std::vector<Segment> box(const Pose2& map_T_middle, const Eigen::Vector2d& size_m) {
   const Eigen::Vector2d half = 0.5 * size_m;
-  return polyline({map_T_middle * Eigen::Vector2d(-half.x(), -half.y()), map_T_middle * Eigen::Vector2d(half.x(), -half.y()),
-                   map_T_middle * Eigen::Vector2d(half.x(), half.y()), map_T_middle * Eigen::Vector2d(-half.x(), half.y())},
+  return polyline({map_T_middle * Eigen::Vector2d(-half.x(), -half.y()),
+                   map_T_middle * Eigen::Vector2d(half.x(), -half.y()),
+                   map_T_middle * Eigen::Vector2d(half.x(), half.y()),
+                   map_T_middle * Eigen::Vector2d(-half.x(), half.y())},
                   true);
 }
 

@@ -26,7 +26,8 @@ double meet(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, c
   return range >= 0.0 && share >= 0.0 && share <= 1.0 ? range : kInfinity;
 }
 
-/// Whether a segment whose bounding box already meets a square also crosses it: all corners on one side means no.
+/// Whether a segment whose bounding box already meets a square also crosses it: all corners on one side means
+/// no.
 bool touches_square(const Segment& segment, const Eigen::Vector2d& middle_m, double half_m) {
   const Eigen::Vector2d edge = segment.b - segment.a;
   const double reach = half_m * (std::abs(edge.x()) + std::abs(edge.y()));
@@ -78,13 +79,15 @@ SegmentIndex::SegmentIndex(std::vector<Segment> segments, double bucket_m)
   columns_ = static_cast<int>((high.x() - corner_m_.x()) / bucket_m_) + 1;
   rows_ = static_cast<int>((high.y() - corner_m_.y()) / bucket_m_) + 1;
 
-  std::vector<std::vector<std::uint32_t>> lists(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  std::vector<std::vector<std::uint32_t>> lists(static_cast<std::size_t>(columns_) *
+                                                static_cast<std::size_t>(rows_));
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segment& s = segments_[i];
     const Eigen::Vector2d from = (s.a.cwiseMin(s.b) - corner_m_).array() - kSlack_m;
     const Eigen::Vector2d to = (s.a.cwiseMax(s.b) - corner_m_).array() + kSlack_m;
     for (int row = static_cast<int>(from.y() / bucket_m_); row <= static_cast<int>(to.y() / bucket_m_); ++row)
-      for (int column = static_cast<int>(from.x() / bucket_m_); column <= static_cast<int>(to.x() / bucket_m_); ++column) {
+      for (int column = static_cast<int>(from.x() / bucket_m_);
+           column <= static_cast<int>(to.x() / bucket_m_); ++column) {
         const Eigen::Vector2d middle = corner_m_ + bucket_m_ * Eigen::Vector2d(column + 0.5, row + 0.5);
         if (row < rows_ && column < columns_ && touches_square(s, middle, 0.5 * bucket_m_ + kSlack_m))
           lists[bucket(column, row)].push_back(static_cast<std::uint32_t>(i));
@@ -98,7 +101,8 @@ SegmentIndex::SegmentIndex(std::vector<Segment> segments, double bucket_m)
 }
 
 std::size_t SegmentIndex::bucket(int column, int row) const {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+         static_cast<std::size_t>(column);
 }
 
 std::optional<RayHit> SegmentIndex::cast(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction,
@@ -158,7 +162,8 @@ double SegmentIndex::clearance(const Eigen::Vector2d& point_m, double max_m) con
   // Ring k holds nothing nearer than k - 1 buckets.
   for (int ring = 0; (ring - 1) * bucket_m_ < best; ++ring)
     for (int r = -ring; r <= ring; ++r)
-      for (int c = -ring; c <= ring; c += std::abs(r) == ring || ring == 0 ? 1 : 2 * ring) look_in(column + c, row + r);
+      for (int c = -ring; c <= ring; c += std::abs(r) == ring || ring == 0 ? 1 : 2 * ring)
+        look_in(column + c, row + r);
   return best;
 }
 

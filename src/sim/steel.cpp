@@ -14,7 +14,8 @@ constexpr double kAmperePerMetrePerMicrotesla = 1.0 / (0.4 * kPi);
 /// Charge in A m to uT m^2: mu0 / (4 pi) = 1e-7 T m / A.
 constexpr double kMicroteslaSquareMetrePerAmpereMetre = 0.1;
 
-/// Demagnetising factor along the long axis of a prolate ellipsoid (Osborn 1945, Eq. 2.17); `slenderness` > 1.
+/// Demagnetising factor along the long axis of a prolate ellipsoid (Osborn 1945, Eq. 2.17); `slenderness`
+/// > 1.
 double demagnetising_factor(double slenderness) {
   const double m2 = slenderness * slenderness - 1.0;
   const double root = std::sqrt(m2);

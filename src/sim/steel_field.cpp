@@ -9,14 +9,17 @@
 namespace mstsl::sim {
 namespace {
 
-/// A node is taken as one dipole from this many times its radius on; the first neglected term falls with the cube.
+/// A node is taken as one dipole from this many times its radius on; the first neglected term falls with the
+/// cube.
 constexpr double kOpening = 5.0;
 /// Nodes of so few pairs are not split: opening one costs as much as summing them.
 constexpr std::size_t kLeaf = 8;
 
 Eigen::Vector3d middle_m(const PolePair& pair) { return 0.5 * (pair.positive_m + pair.negative_m); }
 
-Eigen::Vector3d moment_uTm3(const PolePair& pair) { return pair.strength_uTm2 * (pair.positive_m - pair.negative_m); }
+Eigen::Vector3d moment_uTm3(const PolePair& pair) {
+  return pair.strength_uTm2 * (pair.positive_m - pair.negative_m);
+}
 
 /// Field of a point dipole at the offset r from it, in uT for a moment in uT m^3.
 Eigen::Vector3d dipole_field(const Eigen::Vector3d& moment, const Eigen::Vector3d& r, double squared) {
@@ -34,8 +37,11 @@ void halve(std::vector<PolePair>& pairs, std::size_t first, std::size_t last) {
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const auto at = [&](std::size_t i) { return std::next(pairs.begin(), static_cast<std::ptrdiff_t>(i)); };
-  // Stable: the order of summation, and with it the last bit of the field, is the same with every standard library.
-  std::stable_sort(at(first), at(last), [axis](const PolePair& p, const PolePair& q) { return middle_m(p)[axis] < middle_m(q)[axis]; });
+  // Stable: the order of summation, and with it the last bit of the field, is the same with every standard
+  // library.
+  std::stable_sort(at(first), at(last), [axis](const PolePair& p, const PolePair& q) {
+    return middle_m(p)[axis] < middle_m(q)[axis];
+  });
 }
 
 }  // namespace
@@ -70,7 +76,8 @@ void SteelField::build(std::size_t first, std::size_t last) {
   node.middle_m /= weight;
   double radius_m = 0.0;
   for (std::size_t i = first; i < last; ++i)
-    radius_m = std::max({radius_m, (pairs_[i].positive_m - node.middle_m).norm(), (pairs_[i].negative_m - node.middle_m).norm()});
+    radius_m = std::max({radius_m, (pairs_[i].positive_m - node.middle_m).norm(),
+                         (pairs_[i].negative_m - node.middle_m).norm()});
   node.near_m2 = std::pow(kOpening * radius_m, 2);
   node.first = static_cast<std::uint32_t>(first);
   node.last = static_cast<std::uint32_t>(last);
@@ -81,8 +88,10 @@ void SteelField::build(std::size_t first, std::size_t last) {
 Eigen::Vector3d SteelField::near_field_uT(const Node& node, const Eigen::Vector3d& position_m) const {
   constexpr Eigen::Index kMost = 2 * static_cast<Eigen::Index>(kLeaf);
   using Column = Eigen::Array<double, Eigen::Dynamic, 1, 0, kMost, 1>;
-  const Eigen::Index first = 2 * static_cast<Eigen::Index>(node.first), count = 2 * static_cast<Eigen::Index>(node.last) - first;
-  const Column x = position_m.x() - charges_.col(0).segment(first, count), y = position_m.y() - charges_.col(1).segment(first, count),
+  const Eigen::Index first = 2 * static_cast<Eigen::Index>(node.first),
+                     count = 2 * static_cast<Eigen::Index>(node.last) - first;
+  const Column x = position_m.x() - charges_.col(0).segment(first, count),
+               y = position_m.y() - charges_.col(1).segment(first, count),
                z = position_m.z() - charges_.col(2).segment(first, count);
   // Inside a charge's ball the distance that divides stays its radius: the field grows linearly there.
   const Column squared = (x.square() + y.square() + z.square()).max(kChargeRadius_m * kChargeRadius_m);

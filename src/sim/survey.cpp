@@ -36,10 +36,12 @@ std::vector<Segment> drivable_parts(const World& world, const Segment& line, dou
   std::vector<Segment> parts;
   int first = -1;
   for (int i = 0; i <= steps + 1; ++i) {
-    const bool free = i <= steps && clearance_at(world, point_along(line, static_cast<double>(i) / steps)) >= clearance_m;
+    const bool free =
+        i <= steps && clearance_at(world, point_along(line, static_cast<double>(i) / steps)) >= clearance_m;
     if (free && first < 0) first = i;
     if (!free && first >= 0) {
-      const Segment part{point_along(line, static_cast<double>(first) / steps), point_along(line, static_cast<double>(i - 1) / steps)};
+      const Segment part{point_along(line, static_cast<double>(first) / steps),
+                         point_along(line, static_cast<double>(i - 1) / steps)};
       if (length(part) >= kShortest_m) parts.push_back(part);
       first = -1;
     }
@@ -60,8 +62,11 @@ std::vector<Segment> ordered(std::vector<Segment> lines) {
   std::vector<Segment> order;
   Vector2d at = lines.empty() ? Vector2d::Zero() : lines.front().a;
   while (!lines.empty()) {
-    const auto away = [&](const Segment& line) { return std::min((line.a - at).squaredNorm(), (line.b - at).squaredNorm()); };
-    const auto nearest = std::min_element(lines.begin(), lines.end(), [&](const Segment& p, const Segment& q) { return away(p) < away(q); });
+    const auto away = [&](const Segment& line) {
+      return std::min((line.a - at).squaredNorm(), (line.b - at).squaredNorm());
+    };
+    const auto nearest = std::min_element(
+        lines.begin(), lines.end(), [&](const Segment& p, const Segment& q) { return away(p) < away(q); });
     Segment line = *nearest;
     lines.erase(nearest);
     if ((line.b - at).squaredNorm() < (line.a - at).squaredNorm()) std::swap(line.a, line.b);
@@ -78,7 +83,8 @@ Result<void> go_to(const World& world, Route& route, const Vector2d& goal_m, con
     return {};
   }
   const auto way = plan_path(world, route.waypoints_m.back(), goal_m, path);
-  if (!way) return way.error().within("the survey of world '" + world.name() + "' cannot go from lane to lane");
+  if (!way)
+    return way.error().within("the survey of world '" + world.name() + "' cannot go from lane to lane");
   route.waypoints_m.insert(route.waypoints_m.end(), way->begin() + 1, way->end());
   return {};
 }
@@ -92,12 +98,13 @@ double total_length(const std::vector<Route>& routes) {
 double direction(const Segment& line) { return std::atan2(line.b.y() - line.a.y(), line.b.x() - line.a.x()); }
 
 /// Drives lines there and back, one after the other, until all logs together are `wanted_m` long.
-Result<void> drive_lines(const World& world, const std::vector<Segment>& lines, const SurveyOptions& options, double wanted_m,
-                         std::vector<Route>& routes) {
+Result<void> drive_lines(const World& world, const std::vector<Segment>& lines, const SurveyOptions& options,
+                         double wanted_m, std::vector<Route>& routes) {
   double driven_m = total_length(routes);
   for (const Segment& line : lines) {
     if (driven_m >= wanted_m) break;
-    if (routes.empty() || length(routes.back()) >= options.log_length_m) routes.push_back({direction(line), {}});
+    if (routes.empty() || length(routes.back()) >= options.log_length_m)
+      routes.push_back({direction(line), {}});
     Route& route = routes.back();
     const double before_m = length(route);
     for (const Vector2d& point : {line.a, line.b, line.a})
@@ -121,7 +128,8 @@ Result<std::vector<Segment>> lines_for(const World& world, const SurveyOptions& 
     for (const Segment& line : lines) both_ways_m += 2.0 * length(line);
     if (both_ways_m <= wanted_m) return lines;
   }
-  return Error("so few fingerprints do not reach along every lane of world '" + world.name() + "'; ask for more, or for none to take one pass");
+  return Error("so few fingerprints do not reach along every lane of world '" + world.name() +
+               "'; ask for more, or for none to take one pass");
 }
 
 }  // namespace
@@ -136,7 +144,8 @@ Result<std::vector<Route>> survey_routes(const World& world, const SurveyOptions
   if (!lines) return lines.error();
   std::vector<Route> routes;
   for (int pass = 0; counted ? total_length(routes) < wanted_m : pass < options.passes; ++pass)
-    if (const auto drove = drive_lines(world, *lines, options, wanted_m, routes); !drove) return drove.error();
+    if (const auto drove = drive_lines(world, *lines, options, wanted_m, routes); !drove)
+      return drove.error();
   if (const double excess_m = total_length(routes) - wanted_m; excess_m > 0)
     routes.back() = truncated(routes.back(), length(routes.back()) - excess_m);
   return routes;

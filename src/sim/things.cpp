@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "mstsl/core/angles.hpp"
+
 #include "steelwork.hpp"
 
 namespace mstsl::sim {
@@ -11,7 +12,8 @@ namespace {
 using Eigen::Vector2d;
 
 Pose2 shifted(const Pose2& map_T_spot, double sigma_m, double sigma_rad, Random& random) {
-  return map_T_spot * Pose2{random.normal(0, sigma_m), random.normal(0, sigma_m), random.normal(0, sigma_rad)};
+  return map_T_spot *
+         Pose2{random.normal(0, sigma_m), random.normal(0, sigma_m), random.normal(0, sigma_rad)};
 }
 
 /// A car's outline at bumper height: a box with its corners cut.
@@ -19,8 +21,9 @@ std::vector<Segment> car_outline(const Pose2& map_T_car, const Vector2d& size_m)
   constexpr double kCut_m = 0.25;
   const double x = 0.5 * size_m.x(), y = 0.5 * size_m.y();
   std::vector<Vector2d> points;
-  for (const Vector2d& p : {Vector2d(-x, -y + kCut_m), Vector2d(-x + kCut_m, -y), Vector2d(x - kCut_m, -y), Vector2d(x, -y + kCut_m),
-                            Vector2d(x, y - kCut_m), Vector2d(x - kCut_m, y), Vector2d(-x + kCut_m, y), Vector2d(-x, y - kCut_m)})
+  for (const Vector2d& p : {Vector2d(-x, -y + kCut_m), Vector2d(-x + kCut_m, -y), Vector2d(x - kCut_m, -y),
+                            Vector2d(x, -y + kCut_m), Vector2d(x, y - kCut_m), Vector2d(x - kCut_m, y),
+                            Vector2d(-x + kCut_m, y), Vector2d(-x, y - kCut_m)})
     points.push_back(map_T_car * p);
   return polyline(points, true);
 }
@@ -54,10 +57,12 @@ Thing make_pallet(const Pose2& map_T_spot, Random& random) {
   const Vector2d size(random.uniform(0.7, 0.85), random.uniform(0.9, 1.1));
   const Pose2 at = shifted(map_T_spot, 0.05, radians(2.0), random);
   Thing pallet{box(at, size), {}};
-  constexpr double kSheetGoods = 0.3, kHeavyGoods = 0.1;  // shares; the rest is not magnetic
+  constexpr double kSheetGoods = 0.35, kHeavyGoods = 0.15;  // shares; the rest is not magnetic
   const double goods = random.uniform();
-  if (goods < kSheetGoods) add_cabinet(pallet.steel, at, 0.8 * size, random.uniform(0.4, 1.2), random);
-  else if (goods < kSheetGoods + kHeavyGoods) add_machine(pallet.steel, at.position(), 0.8, random);
+  if (goods < kSheetGoods)
+    add_cabinet(pallet.steel, at, 0.8 * size, random.uniform(0.4, 1.2), random);
+  else if (goods < kSheetGoods + kHeavyGoods)
+    add_machine(pallet.steel, at.position(), 0.8, random);
   return pallet;
 }
 
@@ -68,7 +73,8 @@ Thing make_hidden_steel(const Pose2& map_T_spot, Random& random) {
   if (random.chance(kShareOfMachines)) {
     add_machine(furniture.steel, at * Vector2d(0, 0.5), 1.0, random);
   } else {
-    add_cabinet(furniture.steel, at * Pose2{0, 0.25, 0}, {random.uniform(0.6, 1.2), 0.45}, random.uniform(0.8, 2.0), random);
+    add_cabinet(furniture.steel, at * Pose2{0, 0.25, 0}, {random.uniform(0.6, 1.2), 0.45},
+                random.uniform(0.8, 2.0), random);
   }
   return furniture;
 }
@@ -77,11 +83,16 @@ Thing make_hidden_steel(const Pose2& map_T_spot, Random& random) {
 
 Thing make_thing(ThingKind kind, const Pose2& map_T_spot, Random& random) {
   switch (kind) {
-    case ThingKind::kCar: return make_car(map_T_spot, random);
-    case ThingKind::kCabinet: return make_cabinet(map_T_spot, random);
-    case ThingKind::kTrolley: return make_trolley(map_T_spot, random);
-    case ThingKind::kPallet: return make_pallet(map_T_spot, random);
-    case ThingKind::kHiddenSteel: return make_hidden_steel(map_T_spot, random);
+    case ThingKind::kCar:
+      return make_car(map_T_spot, random);
+    case ThingKind::kCabinet:
+      return make_cabinet(map_T_spot, random);
+    case ThingKind::kTrolley:
+      return make_trolley(map_T_spot, random);
+    case ThingKind::kPallet:
+      return make_pallet(map_T_spot, random);
+    case ThingKind::kHiddenSteel:
+      return make_hidden_steel(map_T_spot, random);
   }
   return {};
 }

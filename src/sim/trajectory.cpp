@@ -18,7 +18,8 @@ Pose2 Trajectory::at(double seconds_from_start) const {
 
 double length(const Trajectory& trajectory) {
   double sum = 0.0;
-  for (std::size_t i = 1; i < trajectory.poses.size(); ++i) sum += distance(trajectory.poses[i - 1], trajectory.poses[i]);
+  for (std::size_t i = 1; i < trajectory.poses.size(); ++i)
+    sum += distance(trajectory.poses[i - 1], trajectory.poses[i]);
   return sum;
 }
 
@@ -41,7 +42,8 @@ class MeasuredLine {
     if (after == 0) return points_.front();
     const auto i = static_cast<std::size_t>(after);
     if (i == points_.size()) return points_.back();
-    return points_[i - 1] + (points_[i] - points_[i - 1]) * ((along_m - reached_m_[i - 1]) / (reached_m_[i] - reached_m_[i - 1]));
+    return points_[i - 1] + (points_[i] - points_[i - 1]) *
+                                ((along_m - reached_m_[i - 1]) / (reached_m_[i] - reached_m_[i - 1]));
   }
 
  private:
@@ -51,7 +53,8 @@ class MeasuredLine {
 
 }  // namespace
 
-Trajectory along_points(const std::vector<Vector2d>& points_m, const MotionOptions& motion, double heading_window_m, Stamp start) {
+Trajectory along_points(const std::vector<Vector2d>& points_m, const MotionOptions& motion,
+                        double heading_window_m, Stamp start) {
   Trajectory trajectory{start, 0.01, {}};
   const MeasuredLine line(points_m);
   if (points_m.empty()) return trajectory;

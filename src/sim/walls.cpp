@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mstsl/core/angles.hpp"
+
 #include "steelwork.hpp"
 
 namespace mstsl::sim {
@@ -73,7 +75,8 @@ void furnish(WorldPlan& plan, const Wall& wall, const Furnishing& furnishing, Ra
   add_columns(plan, wall, furnishing, random);
   for (const Relief& relief : wall.reliefs)
     if (relief.door)
-      add_door_frame(plan.steel, wall.frame_at(relief.at_m) * Pose2{0, -relief.depth_m, 0}, relief.width_m, random);
+      add_door_frame(plan.steel, wall.frame_at(relief.at_m) * Pose2{0, -relief.depth_m, 0}, relief.width_m,
+                     random);
 
   constexpr double kStretch_m = 2.4;
   for (double at = 0.5 * kStretch_m; at < wall.length_m(); at += kStretch_m)

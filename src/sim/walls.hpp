@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/core/pose2.hpp"
 #include "mstsl/core/random.hpp"
@@ -36,11 +37,11 @@ std::vector<Wall> opposite(const std::vector<Wall>& walls, double asymmetry_m, R
 
 /// How steel is spread along walls.
 struct Furnishing {
-  double height_m = 2.8;           ///< of the ceiling
+  double height_m = 2.8;  ///< of the ceiling
   double column_spacing_m = 6.0;
-  bool steel_columns = false;      ///< rolled steel rather than reinforced concrete
-  double radiators = 0.0;          ///< share of 2.4 m stretches with a radiator
-  double hidden_spacing_m = 2.2;   ///< places for furniture behind the wall; 0 for none
+  bool steel_columns = false;     ///< rolled steel rather than reinforced concrete
+  double radiators = 0.0;         ///< share of 2.4 m stretches with a radiator
+  double hidden_spacing_m = 2.2;  ///< places for furniture behind the wall; 0 for none
 };
 
 /// Columns, door frames, radiators and what stands behind one wall.

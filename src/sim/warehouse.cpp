@@ -1,8 +1,9 @@
 #include <cmath>
 #include <vector>
 
-#include "built_in_worlds.hpp"
 #include "mstsl/core/angles.hpp"
+
+#include "built_in_worlds.hpp"
 #include "steelwork.hpp"
 #include "walls.hpp"
 
@@ -36,9 +37,12 @@ Layout layout_of(const Vector2d& size_m) {
 /// One row of frames, bays and pallets whose middle line is x.
 void add_rack(WorldPlan& plan, const Layout& l, double x, const WorldOptions& options, Random& random) {
   for (int frame = 0; frame <= l.bays; ++frame) {
-    const Pose2 middle{x + random.normal(0, 0.2 * options.asymmetry_m), l.frame_y(frame) + random.normal(0, 0.2 * options.asymmetry_m), radians(90)};
+    const Pose2 middle{x + random.normal(0, 0.2 * options.asymmetry_m),
+                       l.frame_y(frame) + random.normal(0, 0.2 * options.asymmetry_m), radians(90)};
     for (const double side : {-0.5, 0.5})
-      for (const Segment& piece : box(middle * Pose2{0, side * (kRackDepth_m - kPost_m), 0}, {kPost_m, kPost_m})) plan.walls.push_back(piece);
+      for (const Segment& piece :
+           box(middle * Pose2{0, side * (kRackDepth_m - kPost_m), 0}, {kPost_m, kPost_m}))
+        plan.walls.push_back(piece);
     add_rack_frame(plan.steel, middle, kRackDepth_m - kPost_m, kRackHeight_m, random);
   }
   constexpr double kPalletsPerBay = 3;
@@ -46,7 +50,10 @@ void add_rack(WorldPlan& plan, const Layout& l, double x, const WorldOptions& op
   for (int bay = 0; bay < l.bays; ++bay) {
     for (const double z : {1.6, 3.2, 4.8})
       for (const double side : {-0.5, 0.5})
-        add_rack_beam(plan.steel, {{x + side * kRackDepth_m, l.frame_y(bay)}, {x + side * kRackDepth_m, l.frame_y(bay + 1)}}, z, random);
+        add_rack_beam(
+            plan.steel,
+            {{x + side * kRackDepth_m, l.frame_y(bay)}, {x + side * kRackDepth_m, l.frame_y(bay + 1)}}, z,
+            random);
     for (int i = 0; i < kPalletsPerBay; ++i) {
       const double y = l.frame_y(bay) + (i + 0.5) * kBay_m / kPalletsPerBay;
       plan.spots.push_back({ThingKind::kPallet, {x, y, radians(90)}, kGoods, std::nullopt});
@@ -57,7 +64,8 @@ void add_rack(WorldPlan& plan, const Layout& l, double x, const WorldOptions& op
 void add_hall(WorldPlan& plan, const Layout& l, const WorldOptions& options, Random& random) {
   const Vector2d sw(-l.x, -l.y), se(l.x, -l.y), ne(l.x, l.y);
   std::vector<Wall> half{{sw, se, {}}, {se, ne, {}}};
-  for (double at = 6.0; at < half[0].length_m() - 3.0; at += 12.0) half[0].reliefs.push_back({at, 3.0, 0.4, true});  // docks
+  for (double at = 6.0; at < half[0].length_m() - 3.0; at += 12.0)
+    half[0].reliefs.push_back({at, 3.0, 0.4, true});  // docks
   half[1].reliefs.push_back({0.5 * half[1].length_m(), 1.1, 0.2, true});
   const std::vector<Wall> copy = opposite(half, options.asymmetry_m, random);
   half.insert(half.end(), copy.begin(), copy.end());
@@ -69,7 +77,8 @@ void add_hall(WorldPlan& plan, const Layout& l, const WorldOptions& options, Ran
 
 void add_lanes(WorldPlan& plan, const Layout& l) {
   const double y = l.y - 0.5 * kHeadAisle_m, x = l.aisle_x(l.aisles - 1);
-  for (const double side : {-1.0, 1.0}) plan.lanes.push_back({{{-x, side * y}, {x, side * y}}, kHeadAisle_m - 1.0});
+  for (const double side : {-1.0, 1.0})
+    plan.lanes.push_back({{{-x, side * y}, {x, side * y}}, kHeadAisle_m - 1.0});
   for (int aisle = 0; aisle < l.aisles; ++aisle)
     plan.lanes.push_back({{{l.aisle_x(aisle), -y}, {l.aisle_x(aisle), y}}, kAisle_m});
 }

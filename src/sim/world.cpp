@@ -16,8 +16,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kClearanceCell_m = 0.1;
-/// Half the width of a slim robot: the ground is what its centre can reach.
-constexpr double kRobotRadius_m = 0.25;
 
 std::vector<Segment> all_surfaces(const WorldPlan& plan) {
   std::vector<Segment> segments = plan.walls;
@@ -46,7 +44,8 @@ GridGeometry geometry_over(const Eigen::AlignedBox2d& area_m, double cell_m) {
 }
 
 bool is_ground(const WorldPlan& plan, const Vector2d& point_m) {
-  return plan.footprint_m.contains(point_m) && (!plan.ground || state_at(*plan.ground, point_m) == CellState::kFree);
+  return plan.footprint_m.contains(point_m) &&
+         (!plan.ground || state_at(*plan.ground, point_m) == CellState::kFree);
 }
 
 /// Spreads from the lanes over all ground that is far enough from the surfaces.
@@ -58,27 +57,46 @@ Grid<float> clearance_of(const WorldPlan& plan, const SegmentIndex& surfaces) {
     if (!clearance.contains(cell) || seen[clearance.geometry().index(cell)]) return;
     seen[clearance.geometry().index(cell)] = true;
     const Vector2d center = clearance.geometry().center_of(cell);
-    const double distance = is_ground(plan, center) ? surfaces.clearance(center, World::kMaxClearance_m) : 0.0;
-    if (distance < kRobotRadius_m) return;
+    const double distance =
+        is_ground(plan, center) ? surfaces.clearance(center, World::kMaxClearance_m) : 0.0;
+    if (distance < World::kRobotClearance_m) return;
     clearance[cell] = static_cast<float>(distance);
     open.push_back(cell);
   };
   for (const Lane& lane : plan.lanes) {
     const int steps = 1 + static_cast<int>(length(lane.center) / kClearanceCell_m);
-    for (int i = 0; i <= steps; ++i) visit(clearance.geometry().cell_at(point_along(lane.center, static_cast<double>(i) / steps)));
+    for (int i = 0; i <= steps; ++i)
+      visit(clearance.geometry().cell_at(point_along(lane.center, static_cast<double>(i) / steps)));
   }
   while (!open.empty()) {
     const Cell cell = open.back();
     open.pop_back();
-    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) visit({cell.column + step.column, cell.row + step.row});
+    for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}})
+      visit({cell.column + step.column, cell.row + step.row});
   }
   return clearance;
+}
+
+Grid<std::uint8_t> lane_cells(const WorldPlan& plan, const Grid<float>& clearance) {
+  Grid<std::uint8_t> on_lane(clearance.geometry(), 0);
+  for (std::size_t i = 0; i < on_lane.values().size(); ++i) {
+    if (clearance.values()[i] <= 0) continue;
+    const Vector2d center = clearance.geometry().center_of(clearance.geometry().cell(i));
+    on_lane.values()[i] = std::any_of(plan.lanes.begin(), plan.lanes.end(), [&](const Lane& lane) {
+      return distance(center, lane.center) <= 0.5 * lane.free_width_m;
+    });
+  }
+  return on_lane;
 }
 
 }  // namespace
 
 World::World(WorldPlan plan)
-    : plan_(std::move(plan)), surfaces_(all_surfaces(plan_)), field_(all_steel(plan_)), clearance_m_(clearance_of(plan_, surfaces_)) {}
+    : plan_(std::move(plan)),
+      surfaces_(all_surfaces(plan_)),
+      field_(all_steel(plan_)),
+      clearance_m_(clearance_of(plan_, surfaces_)),
+      on_lane_(lane_cells(plan_, clearance_m_)) {}
 
 World on_another_day(const World& world, double moved_fraction, const Random& random) {
   WorldPlan plan = world.plan();

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
+
+#include "mstsl/grid/outline.hpp"
+#include "mstsl/sim/world.hpp"
 
 #include "built_in_worlds.hpp"
 #include "map_lanes.hpp"
-#include "mstsl/grid/outline.hpp"
-#include "mstsl/sim/world.hpp"
 #include "steelwork.hpp"
 #include "things.hpp"
 #include "walls.hpp"
@@ -41,7 +43,8 @@ std::optional<Wall> facing_free_space(const OccupancyGrid& map, const Segment& s
 /// A door frame about every so many metres of wall: a map does not show which recess is a door.
 void add_doors(WorldPlan& plan, const Wall& wall, Random& random) {
   constexpr double kSpacing_m = 4.0, kDoor_m = 1.0;
-  for (double at = kSpacing_m * random.uniform(0.2, 1.0); at + 0.5 * kDoor_m < wall.length_m(); at += kSpacing_m * random.uniform(0.5, 1.5))
+  for (double at = kSpacing_m * random.uniform(0.2, 1.0); at + 0.5 * kDoor_m < wall.length_m();
+       at += kSpacing_m * random.uniform(0.5, 1.5))
     add_door_frame(plan.steel, wall.frame_at(at) * Pose2{0, -0.1, 0}, kDoor_m, random);
 }
 
@@ -62,14 +65,18 @@ void add_steel(WorldPlan& plan, Random& random) {
       add_slab(plan.steel, start, area, z, random);
       add_beams(plan.steel, start, area, z, 3.6, random);
     }
-    add_tray(plan.steel, start * Segment{{0, 0.3 * lane.free_width_m}, {along.norm(), 0.3 * lane.free_width_m}}, 2.6, random);
+    add_tray(plan.steel,
+             start * Segment{{0, 0.3 * lane.free_width_m}, {along.norm(), 0.3 * lane.free_width_m}}, 2.6,
+             random);
   }
 }
 
 /// Lanes that can be reached from the longest one.
 std::vector<Lane> connected(const WorldPlan& plan) {
   WorldPlan probe = plan;
-  probe.lanes = {*std::max_element(plan.lanes.begin(), plan.lanes.end(), [](const Lane& p, const Lane& q) { return length(p.center) < length(q.center); })};
+  probe.lanes = {*std::max_element(plan.lanes.begin(), plan.lanes.end(), [](const Lane& p, const Lane& q) {
+    return length(p.center) < length(q.center);
+  })};
   const World world(std::move(probe));
   const auto reached = [&](const Vector2d& point) {
     const Cell cell = world.clearance_m().geometry().cell_at(point);
@@ -77,7 +84,8 @@ std::vector<Lane> connected(const WorldPlan& plan) {
   };
   std::vector<Lane> lanes;
   for (const Lane& lane : plan.lanes)
-    if (reached(point_along(lane.center, 0.02)) && reached(point_along(lane.center, 0.98))) lanes.push_back(lane);
+    if (reached(point_along(lane.center, 0.02)) && reached(point_along(lane.center, 0.98)))
+      lanes.push_back(lane);
   return lanes;
 }
 
@@ -96,8 +104,10 @@ Result<World> world_from_map(const OccupancyGrid& map, const WorldOptions& optio
   plan.lanes = lanes_of_map(map, SegmentIndex(plan.walls), plan.axis_yaw_rad);
   if (!plan.lanes.empty()) plan.lanes = connected(plan);
   if (plan.lanes.empty())
-    return Error("the map has no free space wide and long enough to drive along (at least 0.8 m by 3 m, all of its cells "
-                 "free); check its free and occupied thresholds");
+    return Error(
+        "the map has no free space wide and long enough to drive along (at least 0.8 m by 3 m, all of its "
+        "cells "
+        "free); check its free and occupied thresholds");
   Random building = random.fork(kBuildingStream);
   add_steel(plan, building);
   const Random things = random.fork(kThingsStream);

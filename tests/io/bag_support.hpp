@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "io/bytes.hpp"
 #include "mstsl/core/stamp.hpp"
+
+#include "io/bytes.hpp"
 
 namespace mstsl::test {
 
-/// Writes ROS 1 bags by the words of the format's description, as a double of Debian's rosbag where that is absent (the
-/// interop tests hold the reader against rosbag itself).
+/// Writes ROS 1 bags by the words of the format's description, as a double of Debian's rosbag where that is
+/// absent (the interop tests hold the reader against rosbag itself).
 class BagBuilder {
  public:
   struct Options {
@@ -33,8 +34,8 @@ class BagBuilder {
     (options_.chunked ? chunk_ : out_) += record;
   }
   void write(std::uint32_t id, Stamp time, std::string_view data) {
-    const std::string message =
-        record(field("op", number<std::uint8_t>(2)) + field("conn", number(id)) + field("time", stamp(time)), data);
+    const std::string message = record(
+        field("op", number<std::uint8_t>(2)) + field("conn", number(id)) + field("time", stamp(time)), data);
     (options_.chunked ? chunk_ : out_) += message;
     ++counts_[id];
     if (first_.ns == 0) first_ = time;
@@ -93,7 +94,8 @@ class BagBuilder {
   }
   static std::string header(std::uint64_t index, std::uint32_t connections, std::uint32_t chunks) {
     const std::string fields = field("op", number<std::uint8_t>(3)) + field("index_pos", number(index)) +
-                               field("conn_count", number(connections)) + field("chunk_count", number(chunks));
+                               field("conn_count", number(connections)) +
+                               field("chunk_count", number(chunks));
     return record(fields, std::string(4096 - 8 - fields.size(), ' '));
   }
 

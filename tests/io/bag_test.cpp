@@ -1,10 +1,9 @@
-#include "io/bag/bag_log.hpp"
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "bag_support.hpp"
+#include "io/bag/bag_log.hpp"
 #include "recording_support.hpp"
 
 namespace mstsl::io {
@@ -18,8 +17,9 @@ struct Seen {
   PlayReport report;
 };
 
-Seen read_all(const std::string& bytes, const MessageLog::Wanted& wanted = [](const Channel&) { return true; },
-              bool look_ahead = false) {
+Seen read_all(
+    const std::string& bytes, const MessageLog::Wanted& wanted = [](const Channel&) { return true; },
+    bool look_ahead = false) {
   auto log = must(open_bag(InputFile::in_memory(as_bytes(bytes))));
   Seen seen;
   const auto visit = [&seen](const RawMessage& message) {

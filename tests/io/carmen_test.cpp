@@ -1,13 +1,14 @@
+#include <cmath>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <cmath>
+#include "mstsl/core/angles.hpp"
+#include "mstsl/io/recording_info.hpp"
 
 #include "io/carmen/odometry.hpp"
 #include "io/carmen/parse.hpp"
-#include "mstsl/core/angles.hpp"
-#include "mstsl/io/recording_info.hpp"
 #include "recording_support.hpp"
 
 namespace mstsl::test {
@@ -22,7 +23,8 @@ io::PlayOptions with_poses() {
 }
 
 std::string odometry_line(const Pose2& pose, double time_s) {
-  return fmt::format("ODOM {:.17g} {:.17g} {:.17g} 0 0 0 {} host {}\n", pose.x, pose.y, pose.yaw, time_s, time_s);
+  return fmt::format("ODOM {:.17g} {:.17g} {:.17g} 0 0 0 {} host {}\n", pose.x, pose.y, pose.yaw, time_s,
+                     time_s);
 }
 
 std::string scan_line(const Pose2& pose, double time_s, int beams = 180) {
@@ -102,7 +104,8 @@ TEST_F(CarmenLog, ReadsPackedAndPlainFilesAlike) {
   const auto plain = play_all({path(drive.log)}, with_poses());
   const auto gz = play_all({packed(drive.log)}, with_poses());
   ASSERT_EQ(plain.events.size(), gz.events.size());
-  for (std::size_t i = 0; i < plain.events.size(); ++i) EXPECT_EQ(stamp_of(plain.events[i]), stamp_of(gz.events[i]));
+  for (std::size_t i = 0; i < plain.events.size(); ++i)
+    EXPECT_EQ(stamp_of(plain.events[i]), stamp_of(gz.events[i]));
   EXPECT_EQ(must(io::describe_recording(packed(drive.log))).format, "CARMEN log");
 }
 
@@ -112,7 +115,8 @@ TEST_F(CarmenLog, ARawLogKeepsItsOdometry) {
     log += odometry_line({0.1 * i, 0.2, 0.3}, 1.0 + i) + scan_line({0.1 * i + 0.001, 0.2, 0.3}, 1.5 + i);
   const auto odometry = play_all({path(log)}).of<OdometryReading>();
   ASSERT_EQ(odometry.size(), 10U);
-  for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(odometry[i].odom_T_base.x, 0.1 * static_cast<double>(i), 1e-12);
+  for (std::size_t i = 0; i < 10; ++i)
+    EXPECT_NEAR(odometry[i].odom_T_base.x, 0.1 * static_cast<double>(i), 1e-12);
 }
 
 TEST_F(CarmenLog, PosesComeOnlyWhenWanted) {
@@ -121,7 +125,8 @@ TEST_F(CarmenLog, PosesComeOnlyWhenWanted) {
 }
 
 TEST_F(CarmenLog, BeamsStandInStepsOfTheLaser) {
-  for (const auto& [beams, step_deg] : std::vector<std::pair<int, double>>{{180, 1.0}, {181, 1.0}, {360, 0.5}, {361, 0.5}}) {
+  for (const auto& [beams, step_deg] :
+       std::vector<std::pair<int, double>>{{180, 1.0}, {181, 1.0}, {360, 0.5}, {361, 0.5}}) {
     const LaserScan scan = play_all({path(scan_line({}, 1.0, beams))}).of<LaserScan>().at(0);
     EXPECT_NEAR(scan.angle_min_rad, radians(-90.0), 1e-12);
     EXPECT_NEAR(scan.angle_increment_rad, radians(step_deg), 1e-12) << beams;
@@ -132,18 +137,22 @@ TEST_F(CarmenLog, BeamsStandInStepsOfTheLaser) {
 TEST_F(CarmenLog, TimesThatStandStillOrRunBackABitKeepTheOrderOfTheLines) {
   std::string log;
   const std::vector<double> times{10.0, 10.5, 10.5, 10.1, 10.4, 11.0};
-  for (std::size_t i = 0; i < times.size(); ++i) log += odometry_line({0.1 * static_cast<double>(i), 0.0, 0.0}, times[i]);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    log += odometry_line({0.1 * static_cast<double>(i), 0.0, 0.0}, times[i]);
   const Played played = play_all({path(log + scan_line({}, 11.0))});
   const auto odometry = played.of<OdometryReading>();
   ASSERT_EQ(odometry.size(), 6U);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(odometry[i].odom_T_base.x, 0.1 * static_cast<double>(i), 1e-12);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(odometry[i].odom_T_base.x, 0.1 * static_cast<double>(i), 1e-12);
   for (std::size_t i = 1; i < 6; ++i) EXPECT_LT(odometry[i - 1].stamp, odometry[i].stamp);
   EXPECT_EQ(problems(played.report, "times that stand still or run back"), 3U);
 }
 
 TEST_F(CarmenLog, DamagedLinesAreCounted) {
-  const std::string log = "ODOM 1 2\nODOM 1 2 x 0 0 0 1 h 1\nODOM nan 0 0 0 0 0 1 h 1\nFLASER 180 1 2 3\nFLASER -1\n"
-                          "FLASER 99999999999 1\nODOM 1 2 3 0 0 0 1e300 h 1\nwhatever\n" + scan_line({}, 5.0);
+  const std::string log =
+      "ODOM 1 2\nODOM 1 2 x 0 0 0 1 h 1\nODOM nan 0 0 0 0 0 1 h 1\nFLASER 180 1 2 3\nFLASER -1\n"
+      "FLASER 99999999999 1\nODOM 1 2 3 0 0 0 1e300 h 1\nwhatever\n" +
+      scan_line({}, 5.0);
   const Played played = play_all({path(log)});
   EXPECT_EQ(problems(played.report, "damaged lines"), 7U);
   EXPECT_EQ(played.of<LaserScan>().size(), 1U);

@@ -1,10 +1,11 @@
 #include "io/log/event_order.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/random.hpp"
+
 #include "recording_support.hpp"
 
 namespace mstsl::io {
@@ -112,6 +113,37 @@ TEST(EventOrder, RestartsWhereTheClockRunsBack) {
   EXPECT_EQ(ordered.stamps(), test::nanoseconds({100.0, 101.0, 102.0, 103.0, 20.0, 20.0, 21.0}));
   ASSERT_TRUE(std::holds_alternative<OdometryRestart>(ordered.out[4]));
   EXPECT_EQ(test::problems(ordered.report, "jumps back"), 1U);
+}
+
+TEST(EventOrder, TheRestartStandsBeforeWhatIsSortedBehindIt) {
+  Ordered ordered;
+  for (const double stamp : {100.0, 101.0, 102.0, 20.5, 20.25, 20.0, 21.0})
+    ordered.push(stamp, std::min(stamp, 102.0));
+  ordered.finish();
+  EXPECT_EQ(ordered.stamps(), test::nanoseconds({100.0, 101.0, 102.0, 20.0, 20.0, 20.25, 20.5, 21.0}));
+  EXPECT_TRUE(std::holds_alternative<OdometryRestart>(ordered.out[3]));
+}
+
+TEST(EventOrder, AClockThatNeverStopsJumpingIsToldOfAFewTimes) {
+  Ordered ordered;
+  for (int i = 0; i < 400; ++i) ordered.push(100.0 * i);
+  EXPECT_EQ(test::problems(ordered.report, "clock jumps"), 399U);
+  EXPECT_EQ(ordered.report.warnings.size(), 5U);
+}
+
+TEST(EventOrder, AnythingAtAllComesOutInOrderBetweenRestarts) {
+  Random random(9);
+  for (int trial = 0; trial < 200; ++trial) {
+    Ordered ordered;
+    for (int i = 0; i < 300; ++i)
+      ordered.push(random.chance(0.9) ? 50.0 + 0.1 * i : random.uniform(0.0, 1000.0),
+                   random.uniform(0.0, 1000.0));
+    ordered.finish();
+    for (std::size_t i = 1; i < ordered.out.size(); ++i) {
+      const bool restarts = std::holds_alternative<OdometryRestart>(ordered.out[i]);
+      EXPECT_TRUE(restarts || stamp_of(ordered.out[i - 1]) <= stamp_of(ordered.out[i]));
+    }
+  }
 }
 
 TEST(EventOrder, BelievesALongRowThatTheRecorderDidNotSee) {

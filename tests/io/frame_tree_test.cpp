@@ -6,7 +6,8 @@ namespace mstsl::io {
 namespace {
 
 Eigen::Isometry3d motion(double x, double angle_rad) {
-  return Eigen::Translation3d(x, 0.5, -1.0) * Eigen::AngleAxisd(angle_rad, Eigen::Vector3d(1, 2, 3).normalized());
+  return Eigen::Translation3d(x, 0.5, -1.0) *
+         Eigen::AngleAxisd(angle_rad, Eigen::Vector3d(1, 2, 3).normalized());
 }
 
 TEST(FrameTree, ComposesAlongTheChain) {
@@ -22,7 +23,8 @@ TEST(FrameTree, FollowsTransformsInEitherDirection) {
   tree.add("laser", "base_link", motion(1.0, 0.3));
   tree.add("laser", "imu_link", motion(2.0, 0.1));
   EXPECT_TRUE(tree.find("base_link", "laser")->isApprox(motion(1.0, 0.3).inverse(), 1e-12));
-  EXPECT_TRUE(tree.find("base_link", "imu_link")->isApprox(motion(1.0, 0.3).inverse() * motion(2.0, 0.1), 1e-12));
+  EXPECT_TRUE(
+      tree.find("base_link", "imu_link")->isApprox(motion(1.0, 0.3).inverse() * motion(2.0, 0.1), 1e-12));
 }
 
 TEST(FrameTree, IgnoresLeadingSlashes) {

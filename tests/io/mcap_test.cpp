@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstring>
+
+#include <gtest/gtest.h>
 
 #include "io/compression.hpp"
 #include "io/mcap/mcap_log.hpp"
@@ -21,7 +21,8 @@ struct Seen {
   PlayReport report;
 };
 
-Seen read_all(const std::string& bytes, const MessageLog::Wanted& wanted = [](const Channel&) { return true; }) {
+Seen read_all(
+    const std::string& bytes, const MessageLog::Wanted& wanted = [](const Channel&) { return true; }) {
   auto log = must(open_mcap(InputFile::in_memory(as_bytes(bytes))));
   Seen seen;
   log->read(
@@ -159,7 +160,8 @@ TEST_F(Mcap, UnknownRecordsArePassedOver) {
   unknown.sized<std::uint64_t>(as_bytes("from a later version"));
   // Behind the header record: magic, opcode, length, "ros2", "test".
   const std::size_t place = 8 + 9 + 8 + 8;
-  const Seen seen = read_all(file.substr(0, place) + std::string(as_text(unknown.bytes())) + file.substr(place));
+  const Seen seen =
+      read_all(file.substr(0, place) + std::string(as_text(unknown.bytes())) + file.substr(place));
   EXPECT_EQ(seen.messages, written_);
 }
 
@@ -186,7 +188,8 @@ TEST(McapByHand, MessagesOfAChunkAreVisitedInTheOrderOfTheirTimes) {
   ByteBuilder chunk;
   append(chunk, mcap::Schema{1, "std_msgs/msg/String", "ros2msg", "string data"});
   append(chunk, mcap::Channel{1, 1, "/a", "cdr", {}});
-  for (const std::uint64_t time : {5, 2, 9, 2, 1}) append(chunk, mcap::Message{1, 0, time, time, as_bytes("x")});
+  for (const std::uint64_t time : {5, 2, 9, 2, 1})
+    append(chunk, mcap::Message{1, 0, time, time, as_bytes("x")});
   ByteBuilder out;
   out.append(as_bytes(mcap::kMagic));
   append(out, mcap::Header{"ros2", "hand"});

@@ -15,7 +15,8 @@ namespace mstsl::test {
 /// Writes any ROS messages, well formed or not, as an MCAP log.
 class MessageFile {
  public:
-  explicit MessageFile(const std::filesystem::path& path) : writer_(must(io::mcap::Writer::open(path, "ros2", "test"))) {}
+  explicit MessageFile(const std::filesystem::path& path)
+      : writer_(must(io::mcap::Writer::open(path, "ros2", "test"))) {}
 
   template <typename Message>
   MessageFile& declare(const std::string& topic) {
@@ -92,7 +93,8 @@ class UsualLog : public MessageFile {
   /// The mountings, and one good message of each needed kind at `stamp_s`.
   void begin(double stamp_s = 100.0) {
     io::ros::TFMessage mountings;
-    mountings.transforms = {ros_transform("base_link", "laser", {}), ros_transform("base_link", "imu_link", {})};
+    mountings.transforms = {ros_transform("base_link", "laser", {}),
+                            ros_transform("base_link", "imu_link", {})};
     write("/tf_static", mountings, stamp_s);
     put(ros_odometry(stamp_s), stamp_s);
     put(ros_field(stamp_s), stamp_s);

@@ -1,11 +1,12 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 
-#include "message_support.hpp"
+#include <gtest/gtest.h>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/io/recording_info.hpp"
+
+#include "message_support.hpp"
 
 namespace mstsl::test {
 namespace {
@@ -70,8 +71,9 @@ TEST_F(Play, ListsWhatIsThereWhenATopicIsMissing) {
   io::PlayOptions options;
   options.topics.scan = "/front/scan";
   const std::string message = error(options);
-  for (const char* words : {"log.mcap", "there is no topic /front/scan", "/scan (sensor_msgs/LaserScan, 10 messages)",
-                            "/odom (nav_msgs/Odometry, 50 messages)"})
+  for (const char* words :
+       {"log.mcap", "there is no topic /front/scan", "/scan (sensor_msgs/LaserScan, 10 messages)",
+        "/odom (nav_msgs/Odometry, 50 messages)"})
     EXPECT_NE(message.find(words), std::string::npos) << message;
 }
 
@@ -89,7 +91,8 @@ TEST_F(Play, RefusesOneTopicInTwoRoles) {
   write_log(path(), random_drive(random, 1.0));
   io::PlayOptions options;
   options.topics.pose = "/odom";
-  EXPECT_NE(error(options).find("/odom is named as the odometry topic and as the pose topic"), std::string::npos);
+  EXPECT_NE(error(options).find("/odom is named as the odometry topic and as the pose topic"),
+            std::string::npos);
 }
 
 TEST_F(Play, RefusesATopicWithoutMessagesAndALogWithoutAny) {
@@ -243,6 +246,25 @@ TEST_F(Play, TakesAnImpossibleJumpOfTheOdometryAsARestart) {
   EXPECT_EQ(problems(played.report, "taken as restarts"), 1U);
 }
 
+TEST_F(Play, SaysWhichSensorCouldNotBeUsedAtAll) {
+  {
+    UsualLog log(path());
+    log.begin();
+    for (int i = 1; i < 50; ++i) {
+      log.put(ros_odometry(100.0 + 0.1 * i), 100.0 + 0.1 * i);
+      // Its driver's clock is an hour ahead of the robot's.
+      auto imu = io::ros::Imu{};
+      imu.header = ros_header(3700.0 + 0.1 * i, "imu_link");
+      log.write("/imu/data", imu, 100.0 + 0.1 * i);
+    }
+    log.close();
+  }
+  const Played played = play_all({path()});
+  EXPECT_TRUE(warns_of(played.report, "none of the 49 messages on /imu/data could be used"));
+  EXPECT_EQ(problems(played.report, "stamps far in the future"), 49U);
+  EXPECT_EQ(played.of<OdometryReading>().size(), 50U);
+}
+
 struct Unit {
   double strength;
   const char* name;
@@ -259,7 +281,8 @@ TEST_P(PlayInUnit, GivesMicroteslaAndSaysWhatWasAssumed) {
   {
     UsualLog log(path());
     io::ros::TFMessage mountings;
-    mountings.transforms = {ros_transform("base_link", "laser", {}), ros_transform("base_link", "imu_link", {})};
+    mountings.transforms = {ros_transform("base_link", "laser", {}),
+                            ros_transform("base_link", "imu_link", {})};
     log.write("/tf_static", mountings, 100.0);
     log.put(ros_odometry(100.0), 100.0);
     log.put(ros_scan(100.0), 100.0);
@@ -273,8 +296,9 @@ TEST_P(PlayInUnit, GivesMicroteslaAndSaysWhatWasAssumed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Units, PlayInUnit,
-                         testing::Values(Unit{50.0, "microtesla"}, Unit{50e3, "nanotesla"}, Unit{0.5, "gauss"},
-                                         Unit{500.0, "milligauss"}, Unit{1.0, "normalised"}),
+                         testing::Values(Unit{50.0, "microtesla"}, Unit{50e3, "nanotesla"},
+                                         Unit{0.5, "gauss"}, Unit{500.0, "milligauss"},
+                                         Unit{1.0, "normalised"}),
                          [](const auto& unit) { return std::string(unit.param.name); });
 
 TEST_F(Play, RefusesAFieldThatFitsNoUnit) {
@@ -285,7 +309,8 @@ TEST_F(Play, RefusesAFieldThatFitsNoUnit) {
     log.put(ros_field(1.0, 7.0), 1.0);
     log.close();
   }
-  EXPECT_NE(error().find("topic /imu/mag: the magnetic readings have a median strength of 7"), std::string::npos)
+  EXPECT_NE(error().find("topic /imu/mag: the magnetic readings have a median strength of 7"),
+            std::string::npos)
       << error();
 }
 
@@ -327,7 +352,8 @@ TEST_F(Play, SaysLoudlyWhichMountingIsMissing) {
   }
   const Played played = play_all({path()});
   EXPECT_EQ(played.report.warnings.size(), 2U);
-  EXPECT_TRUE(warns_of(played.report, "no way from 'base_link' to 'laser' (frames there: base_footprint, laser)"));
+  EXPECT_TRUE(
+      warns_of(played.report, "no way from 'base_link' to 'laser' (frames there: base_footprint, laser)"));
   EXPECT_TRUE(warns_of(played.report, "no way from 'base_link' to 'imu_link'"));
   io::PlayOptions options;
   options.base_frame = "/base_footprint";
@@ -358,7 +384,8 @@ TEST_F(Play, TurnsInertialReadingsIntoTheMagnetometersFrame) {
   EXPECT_TRUE(readings[0].angular_velocity_rad_s.isApprox(Eigen::Vector3d(0.0, 1.0, 0.25), 1e-9));
   // The gyro's x axis points along the magnetometer's y; its world attitude is the identity.
   ASSERT_TRUE(readings[0].world_q_sensor.has_value());
-  EXPECT_TRUE((*readings[0].world_q_sensor * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
+  EXPECT_TRUE(
+      (*readings[0].world_q_sensor * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
 }
 
 TEST_F(Play, DescribesALogWithoutPlayingIt) {

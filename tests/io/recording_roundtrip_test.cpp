@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
+
 #include "recording_support.hpp"
 
 namespace mstsl::test {
@@ -12,7 +13,9 @@ void expect_same(const Pose2& a, const Pose2& b) {
   EXPECT_NEAR(angle_between(a.yaw, b.yaw), 0.0, 1e-12);
 }
 
-void expect_same(const OdometryReading& a, const OdometryReading& b) { expect_same(a.odom_T_base, b.odom_T_base); }
+void expect_same(const OdometryReading& a, const OdometryReading& b) {
+  expect_same(a.odom_T_base, b.odom_T_base);
+}
 void expect_same(const PoseReading& a, const PoseReading& b) { expect_same(a.map_T_base, b.map_T_base); }
 void expect_same(const OdometryRestart&, const OdometryRestart&) {}
 
@@ -42,7 +45,8 @@ void expect_same(const std::vector<SensorEvent>& written, const std::vector<Sens
     ASSERT_EQ(written[i].index(), read[i].index()) << "event " << i;
     ASSERT_EQ(stamp_of(written[i]), stamp_of(read[i])) << "event " << i;
     std::visit(
-        [&](const auto& event) { expect_same(event, std::get<std::decay_t<decltype(event)>>(read[i])); }, written[i]);
+        [&](const auto& event) { expect_same(event, std::get<std::decay_t<decltype(event)>>(read[i])); },
+        written[i]);
   }
 }
 
@@ -50,7 +54,8 @@ class RoundTrip : public testing::TestWithParam<int> {};
 
 TEST_P(RoundTrip, WhatIsWrittenIsWhatIsPlayed) {
   Random random(static_cast<std::uint64_t>(GetParam()));
-  const std::vector<SensorEvent> written = random_drive(random, random.uniform(1.0, 60.0), random.index(400) + 1);
+  const std::vector<SensorEvent> written =
+      random_drive(random, random.uniform(1.0, 60.0), random.index(400) + 1);
   const TemporaryFolder folder;
   const auto file = folder.path() / "log.mcap";
   write_log(file, written, survey_topics());

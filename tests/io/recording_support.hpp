@@ -9,6 +9,7 @@
 #include "mstsl/core/random.hpp"
 #include "mstsl/io/recording.hpp"
 #include "mstsl/io/recording_writer.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::test {
@@ -29,7 +30,8 @@ struct Played {
   }
 };
 
-inline Result<Played> try_play(const std::vector<std::filesystem::path>& files, const io::PlayOptions& options = {}) {
+inline Result<Played> try_play(const std::vector<std::filesystem::path>& files,
+                               const io::PlayOptions& options = {}) {
   Played played;
   Result<io::PlayReport> report = io::play(
       files, options,
@@ -54,13 +56,13 @@ inline Played play_all(const std::vector<std::filesystem::path>& files, const io
 inline Rig tilted_rig() {
   Rig rig;
   rig.base_T_laser = Eigen::Translation3d(0.3, -0.1, 0.4) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ());
-  rig.base_T_magnetometer =
-      Eigen::Translation3d(-0.2, 0.05, 0.9) * Eigen::AngleAxisd(2.5, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
+  rig.base_T_magnetometer = Eigen::Translation3d(-0.2, 0.05, 0.9) *
+                            Eigen::AngleAxisd(2.5, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
   return rig;
 }
 
-/// A drive of `seconds`: odometry and field at 50 Hz, IMU and pose at 25 Hz, scans of `beams` at 10 Hz, each kind
-/// with stamps of its own, from `start_s` on.
+/// A drive of `seconds`: odometry and field at 50 Hz, IMU and pose at 25 Hz, scans of `beams` at 10 Hz, each
+/// kind with stamps of its own, from `start_s` on.
 inline std::vector<SensorEvent> random_drive(Random& random, double seconds, std::size_t beams = 31,
                                              double start_s = 1'700'000'000.0) {
   std::vector<SensorEvent> events;
@@ -69,13 +71,17 @@ inline std::vector<SensorEvent> random_drive(Random& random, double seconds, std
     const Stamp stamp = Stamp::from_seconds(start_s) + 0.02 * i;
     pose = pose * Pose2{0.02 * random.uniform(), 0.0, random.normal(0.0, 0.05)};
     events.push_back(OdometryReading{stamp, pose});
-    events.push_back(FieldReading{{stamp.ns + 1'000'000},
-                                  {random.normal(20.0, 5.0), random.normal(0.0, 5.0), random.normal(-40.0, 5.0)}});
+    events.push_back(
+        FieldReading{{stamp.ns + 1'000'000},
+                     {random.normal(20.0, 5.0), random.normal(0.0, 5.0), random.normal(-40.0, 5.0)}});
     if (i % 2 == 0) {
-      ImuReading imu{{stamp.ns + 2'000'000}, {random.normal(), random.normal(), random.normal()}, std::nullopt};
-      if (random.chance(0.5)) imu.world_q_sensor = Eigen::AngleAxisd(random.normal(), Eigen::Vector3d::UnitY());
+      ImuReading imu{
+          {stamp.ns + 2'000'000}, {random.normal(), random.normal(), random.normal()}, std::nullopt};
+      if (random.chance(0.5))
+        imu.world_q_sensor = Eigen::AngleAxisd(random.normal(), Eigen::Vector3d::UnitY());
       events.push_back(imu);
-      events.push_back(PoseReading{{stamp.ns + 3'000'000}, {random.normal(), random.normal(), random.uniform(-3.1, 3.1)}});
+      events.push_back(
+          PoseReading{{stamp.ns + 3'000'000}, {random.normal(), random.normal(), random.uniform(-3.1, 3.1)}});
     }
     if (i % 5 == 0) {
       LaserScan scan{{stamp.ns + 4'000'000}, -1.5, 0.0625, 0.0, 0.125, 30.0, {}};

@@ -1,11 +1,12 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstring>
 
+#include <gtest/gtest.h>
+
+#include "mstsl/core/random.hpp"
+
 #include "io/ros/decode.hpp"
 #include "io/ros/schemas.hpp"
-#include "mstsl/core/random.hpp"
 
 namespace mstsl::io::ros {
 namespace {
@@ -65,9 +66,9 @@ TEST(Cdr, IsWrittenAsTheStandardSays) {
 
 TEST(Cdr, AlignsNumbersToTheirSizeAfterTheEncapsulation) {
   MagneticField field;
-  field.header.frame_id = "imu";         // 4 bytes with the zero: the vector begins at 16
+  field.header.frame_id = "imu";  // 4 bytes with the zero: the vector begins at 16
   const auto short_name = encode_cdr(field).size();
-  field.header.frame_id = "imu_";        // 5 bytes: padded to 24
+  field.header.frame_id = "imu_";  // 5 bytes: padded to 24
   EXPECT_EQ(encode_cdr(field).size(), short_name + 8);
   field.header.frame_id = "imu_link678";  // 12 bytes: begins at 24 as well
   EXPECT_EQ(encode_cdr(field).size(), short_name + 8);
@@ -90,7 +91,7 @@ TEST(Cdr, TakesSecondsBeforeTheEpochAsNegative) {
 /// ROS 1 packs without padding and puts a sequence number before each stamp.
 TEST(Ros1, ReadsPackedMessages) {
   Bytes out;
-  append(out, {0, 0, 1, 2}, true);             // sequence number
+  append(out, {0, 0, 1, 2}, true);              // sequence number
   append(out, {0xFF, 0xFF, 0xFF, 0xFF}, true);  // the last second that ROS 1 knows, in 2106
   append(out, {0, 0, 0, 9}, true);
   append(out, {0, 0, 0, 3}, true);
@@ -109,11 +110,14 @@ TEST(Ros1, ReadsPackedMessages) {
 
 LaserScan random_scan(Random& random) {
   LaserScan scan;
-  scan.header = {{static_cast<std::int64_t>(random.index(1000)), static_cast<std::uint32_t>(random.index(1000))},
-                 std::string(random.index(20), 'f')};
+  scan.header = {
+      {static_cast<std::int64_t>(random.index(1000)), static_cast<std::uint32_t>(random.index(1000))},
+      std::string(random.index(20), 'f')};
   scan.angle_increment = static_cast<float>(random.normal());
-  for (std::size_t i = random.index(50); i > 0; --i) scan.ranges.push_back(static_cast<float>(random.normal()));
-  for (std::size_t i = random.index(50); i > 0; --i) scan.intensities.push_back(static_cast<float>(random.normal()));
+  for (std::size_t i = random.index(50); i > 0; --i)
+    scan.ranges.push_back(static_cast<float>(random.normal()));
+  for (std::size_t i = random.index(50); i > 0; --i)
+    scan.intensities.push_back(static_cast<float>(random.normal()));
   return scan;
 }
 
@@ -148,7 +152,8 @@ void expect_no_prefix_is_whole(const Message& message) {
   const Bytes whole = encode_cdr(message);
   ASSERT_TRUE(decode<Message>(Encoding::kCdr, whole).has_value());
   for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_FALSE(decode<Message>(Encoding::kCdr, ByteView(whole).first(size)).has_value()) << size << " bytes";
+    EXPECT_FALSE(decode<Message>(Encoding::kCdr, ByteView(whole).first(size)).has_value())
+        << size << " bytes";
 }
 
 TEST(Decoding, RefusesMessagesCutAnywhere) {
@@ -183,9 +188,10 @@ TEST(Schemas, HoldEveryDefinitionOnceBehindALineOfEqualSigns) {
   const std::string schema = ros2msg_schema(Odometry::kType);
   const std::string separator = std::string(80, '=') + "\nMSG: ";
   EXPECT_TRUE(schema.starts_with("std_msgs/Header header\n"));
-  for (const char* type : {"std_msgs/Header", "builtin_interfaces/Time", "geometry_msgs/PoseWithCovariance",
-                           "geometry_msgs/Pose", "geometry_msgs/Point", "geometry_msgs/Quaternion",
-                           "geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist", "geometry_msgs/Vector3"}) {
+  for (const char* type :
+       {"std_msgs/Header", "builtin_interfaces/Time", "geometry_msgs/PoseWithCovariance",
+        "geometry_msgs/Pose", "geometry_msgs/Point", "geometry_msgs/Quaternion",
+        "geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist", "geometry_msgs/Vector3"}) {
     const std::string start = separator + type + "\n";
     const std::size_t first = schema.find(start);
     ASSERT_NE(first, std::string::npos) << type;

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "message_support.hpp"
 #include "mstsl/io/recording_info.hpp"
+
+#include "message_support.hpp"
 
 namespace mstsl::test {
 namespace {
@@ -52,16 +53,18 @@ TEST_F(Rosbag2Folder, NamesAFileThatIsMissing) {
 }
 
 TEST_F(Rosbag2Folder, RefusesOtherStoragesWithAMend) {
-  describe("rosbag2_bagfile_information:\n  storage_identifier: sqlite3\n  relative_file_paths: [drive_0.db3]\n");
+  describe(
+      "rosbag2_bagfile_information:\n  storage_identifier: sqlite3\n  relative_file_paths: [drive_0.db3]\n");
   EXPECT_NE(error().find("'sqlite3', but only mcap is read; convert"), std::string::npos) << error();
   describe("rosbag2_bagfile_information:\n  storage_identifier: mcap\n  compression_mode: FILE\n");
   EXPECT_NE(error().find("compression_mode: FILE"), std::string::npos) << error();
 }
 
 TEST_F(Rosbag2Folder, RefusesBrokenMetadata) {
-  for (const char* metadata : {"", "[1, 2", "a: b", "rosbag2_bagfile_information: 3", "- 1\n- 2\n",
-                               "rosbag2_bagfile_information:\n  storage_identifier: mcap\n  relative_file_paths: {a: 1}",
-                               "rosbag2_bagfile_information:\n  storage_identifier: mcap\n  relative_file_paths: [[1]]"}) {
+  for (const char* metadata :
+       {"", "[1, 2", "a: b", "rosbag2_bagfile_information: 3", "- 1\n- 2\n",
+        "rosbag2_bagfile_information:\n  storage_identifier: mcap\n  relative_file_paths: {a: 1}",
+        "rosbag2_bagfile_information:\n  storage_identifier: mcap\n  relative_file_paths: [[1]]"}) {
     describe(metadata);
     EXPECT_NE(error().find(folder().string()), std::string::npos) << metadata << ": " << error();
   }

@@ -90,7 +90,7 @@ TEST_F(LidarStageTest, TwinsOfEqualWeightAreAnsweredOnlyAtTheAnswerDistance) {
   drive(stage, {8.0, 1.0, 0.0}, options.answer_distance_m - 1.0);
   EXPECT_FALSE(stage.answer());
   const std::vector<double> weights = stage.weights();
-  EXPECT_LT(*std::max_element(weights.begin(), weights.end()), options.answer_probability);
+  EXPECT_LT(*std::max_element(weights.begin(), weights.end()), options.answer_share);
 }
 
 TEST_F(LidarStageTest, BlindScansMoveTheHypothesesByOdometryAlone) {

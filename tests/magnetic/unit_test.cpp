@@ -1,12 +1,13 @@
 #include "mstsl/magnetic/unit.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/random.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl {
@@ -23,8 +24,8 @@ std::vector<double> norms_around(double median, Random& random) {
 TEST(FieldUnit, IsFoundForEveryStrengthThatTheEarthHas) {
   Random random(1);
   for (double strength_uT = 22.0; strength_uT <= 67.0; strength_uT += 0.5) {
-    for (const FieldUnit unit : {FieldUnit::kTesla, FieldUnit::kMicrotesla, FieldUnit::kNanotesla, FieldUnit::kGauss,
-                                 FieldUnit::kMilligauss}) {
+    for (const FieldUnit unit : {FieldUnit::kTesla, FieldUnit::kMicrotesla, FieldUnit::kNanotesla,
+                                 FieldUnit::kGauss, FieldUnit::kMilligauss}) {
       const auto norms = norms_around(strength_uT / microtesla_per(unit), random);
       EXPECT_EQ(must(detect_unit(norms)), unit) << strength_uT << " uT in " << to_string(unit);
     }
@@ -34,9 +35,10 @@ TEST(FieldUnit, IsFoundForEveryStrengthThatTheEarthHas) {
 TEST(FieldUnit, IsFoundForTheStrengthsOfBuildings) {
   Random random(2);
   for (double strength_uT = 16.0; strength_uT <= 75.0; strength_uT += 1.0)
-    for (const FieldUnit unit : {FieldUnit::kTesla, FieldUnit::kMicrotesla, FieldUnit::kNanotesla, FieldUnit::kGauss,
-                                 FieldUnit::kMilligauss})
-      EXPECT_EQ(must(detect_unit(norms_around(strength_uT / microtesla_per(unit), random))), unit) << strength_uT;
+    for (const FieldUnit unit : {FieldUnit::kTesla, FieldUnit::kMicrotesla, FieldUnit::kNanotesla,
+                                 FieldUnit::kGauss, FieldUnit::kMilligauss})
+      EXPECT_EQ(must(detect_unit(norms_around(strength_uT / microtesla_per(unit), random))), unit)
+          << strength_uT;
   for (double strength_uT = 11.0; strength_uT <= 140.0; strength_uT += 1.0)
     EXPECT_EQ(must(detect_unit(norms_around(strength_uT * 1e-6, random))), FieldUnit::kTesla) << strength_uT;
 }
@@ -49,7 +51,8 @@ TEST(FieldUnit, NormalisedReadingsHaveALengthOfAboutOne) {
 TEST(FieldUnit, AFewBadReadingsDoNotMatter) {
   const double inf = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(must(detect_unit(std::vector{0.0, nan, 45.0, 46.0, inf, 47.0, 1e9, 0.0, 44.0})), FieldUnit::kMicrotesla);
+  EXPECT_EQ(must(detect_unit(std::vector{0.0, nan, 45.0, 46.0, inf, 47.0, 1e9, 0.0, 44.0})),
+            FieldUnit::kMicrotesla);
 }
 
 TEST(FieldUnit, IsRefusedWhereNoneFits) {

@@ -29,6 +29,12 @@ TEST(LikelihoodField, IsTheGaussianOfTheDistanceToTheNearestWallCell) {
   }
 }
 
+TEST(LikelihoodField, IsNeverNarrowerThanItsCellsCanShow) {
+  const OccupancyGrid coarse(test::square_around({}, 2.0, 0.2), CellState::kFree);
+  EXPECT_NEAR(LikelihoodField(coarse, {.sigma_m = 0.01}).sigma_m(), 0.3, 1e-12);
+  EXPECT_NEAR(LikelihoodField(coarse, {.sigma_m = 0.5}).sigma_m(), 0.5, 1e-12);
+}
+
 TEST(LikelihoodField, IsItsOwnValueAtCellCentres) {
   const LikelihoodField field = room_field();
   for (std::size_t i = 0; i < field.geometry().size(); i += 7) {

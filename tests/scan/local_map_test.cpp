@@ -103,7 +103,7 @@ TEST(LocalMap, ForgetsPeopleWhoHaveWalkedOn) {
 
 TEST(LocalMap, FollowsOdometryAlongABareCorridor) {
   Random random(4);
-  LocalMap map({.half_size_m = 15.0, .keyframe_distance_m = 0.5});
+  LocalMap map({.half_size_m = 15.0});
   constexpr int kSteps = 100;
   for (int i = 0; i < kSteps; ++i) {
     const Pose2 pose = Pose2{0, 0, 0.2} * Pose2{0.05 * i, 0.0, 0.0};

@@ -63,7 +63,7 @@ TEST(RefinePose, MovesWithTheWorld) {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     turn.topLeftCorner<2, 2>() = motion.rotation();
     const Eigen::Matrix3d expected = turn * here.covariance * turn.transpose();
-    EXPECT_LT((expected - there.covariance).norm(), 0.1 * expected.norm());
+    EXPECT_LT((expected - there.covariance).norm(), 0.01 * expected.norm());
   }
 }
 
@@ -96,7 +96,7 @@ TEST(RefinePose, KnowsNothingOfTheWayAlongABareCorridor) {
         200);
     const Refinement refined = refine_pose(field, points, start, PosePrior::isotropic(start, 1.0, 0.3));
     const Eigen::Vector3d along(std::cos(yaw), std::sin(yaw), 0), across(-std::sin(yaw), std::cos(yaw), 0);
-    EXPECT_GT(std::sqrt(along.dot(refined.covariance * along)), 0.15) << yaw;
+    EXPECT_GT(std::sqrt(along.dot(refined.covariance * along)), 0.3) << yaw;
     EXPECT_LT(std::sqrt(across.dot(refined.covariance * across)), 0.06) << yaw;
     EXPECT_LT(std::abs(across.dot(error_of(refined.map_T_base, truth))), 0.03) << yaw;
     EXPECT_NEAR(along.dot(error_of(refined.map_T_base, truth)), 0.1, 0.1)

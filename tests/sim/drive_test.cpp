@@ -1,13 +1,14 @@
 #include "mstsl/sim/drive.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/sim/run.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::sim {
@@ -21,7 +22,8 @@ struct Recording {
   std::vector<PoseReading> truth;
 
   DriveSinks sinks() {
-    return {[this](const SensorEvent& event) { events.push_back(event); }, [this](const PoseReading& pose) { truth.push_back(pose); }};
+    return {[this](const SensorEvent& event) { events.push_back(event); },
+            [this](const PoseReading& pose) { truth.push_back(pose); }};
   }
   template <typename T>
   std::vector<T> all() const {
@@ -50,7 +52,8 @@ class Drive : public ::testing::Test {
 
 TEST_F(Drive, ReportsInTimeOrderAtEachSensorsRate) {
   const Recording r = record(few_beams());
-  EXPECT_TRUE(std::is_sorted(r.events.begin(), r.events.end(), [](const auto& a, const auto& b) { return stamp_of(a) < stamp_of(b); }));
+  EXPECT_TRUE(std::is_sorted(r.events.begin(), r.events.end(),
+                             [](const auto& a, const auto& b) { return stamp_of(a) < stamp_of(b); }));
   const double seconds = r.truth.back().stamp - r.truth.front().stamp;
   EXPECT_NEAR(static_cast<double>(r.all<OdometryReading>().size()), 50 * seconds, 2);
   EXPECT_NEAR(static_cast<double>(r.all<FieldReading>().size()), 100 * seconds, 3);
@@ -63,7 +66,8 @@ TEST_F(Drive, IsTheSameForTheSameSeed) {
   const Recording a = record(few_beams()), b = record(few_beams()), other = record(few_beams(), {}, 4);
   ASSERT_EQ(a.events.size(), b.events.size());
   const auto fields_a = a.all<FieldReading>(), fields_b = b.all<FieldReading>();
-  for (std::size_t i = 0; i < fields_a.size(); ++i) EXPECT_EQ(fields_a[i].sensor_field_uT, fields_b[i].sensor_field_uT);
+  for (std::size_t i = 0; i < fields_a.size(); ++i)
+    EXPECT_EQ(fields_a[i].sensor_field_uT, fields_b[i].sensor_field_uT);
   const auto scans_a = a.all<LaserScan>(), scans_b = b.all<LaserScan>();
   for (std::size_t i = 0; i < scans_a.size(); ++i) EXPECT_EQ(scans_a[i].ranges_m, scans_b[i].ranges_m);
   EXPECT_NE(fields_a[0].sensor_field_uT, other.all<FieldReading>()[0].sensor_field_uT);
@@ -77,7 +81,8 @@ TEST_F(Drive, LeavesTheOtherSensorsAsTheyAreWhenOneIsOff) {
   for (const RobotOptions& robot : {blind, ahead}) {
     const auto fields = record(robot).all<FieldReading>();
     ASSERT_EQ(fields.size(), full.size());
-    for (std::size_t i = 0; i < fields.size(); ++i) EXPECT_EQ(fields[i].sensor_field_uT, full[i].sensor_field_uT);
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      EXPECT_EQ(fields[i].sensor_field_uT, full[i].sensor_field_uT);
   }
   EXPECT_TRUE(record(blind).all<LaserScan>().empty());
 }
@@ -93,8 +98,12 @@ TEST_F(Drive, MeasuresTheFieldWhereTheMagnetometerIsAndAsItLies) {
   const auto readings = r.all<FieldReading>();
   ASSERT_EQ(readings.size(), r.truth.size());
   for (std::size_t i = 0; i < readings.size(); i += 5) {
-    const Eigen::Isometry3d map_T_sensor = to_isometry3(r.truth[i].map_T_base) * robot.rig.base_T_magnetometer;
-    EXPECT_NEAR((map_T_sensor.linear() * readings[i].sensor_field_uT - world_.field_uT(map_T_sensor.translation())).norm(), 0.0, 1e-9);
+    const Eigen::Isometry3d map_T_sensor =
+        to_isometry3(r.truth[i].map_T_base) * robot.rig.base_T_magnetometer;
+    EXPECT_NEAR(
+        (map_T_sensor.linear() * readings[i].sensor_field_uT - world_.field_uT(map_T_sensor.translation()))
+            .norm(),
+        0.0, 1e-9);
   }
 }
 
@@ -106,7 +115,8 @@ TEST_F(Drive, TakesTheFieldFromElsewhereIfGiven) {
                           EXPECT_NEAR(at.x(), pose.x, 1e-12);
                           return Vector3d(0, 0, -at.z());
                         }).all<FieldReading>();
-  for (const FieldReading& reading : readings) EXPECT_NEAR((reading.sensor_field_uT - Vector3d(0, 0, -0.7)).norm(), 0.0, 1e-12);
+  for (const FieldReading& reading : readings)
+    EXPECT_NEAR((reading.sensor_field_uT - Vector3d(0, 0, -0.7)).norm(), 0.0, 1e-12);
 }
 
 TEST_F(Drive, ReportsTheTrueTurnRatesWhereAGyroscopeIsOn) {
@@ -116,7 +126,8 @@ TEST_F(Drive, ReportsTheTrueTurnRatesWhereAGyroscopeIsOn) {
   const Recording r = record(robot);
   double turned = 0.0;
   for (const ImuReading& reading : r.all<ImuReading>()) turned += 0.01 * reading.angular_velocity_rad_s.z();
-  EXPECT_NEAR(angle_between(turned, r.truth.back().map_T_base.yaw - r.truth.front().map_T_base.yaw), 0.0, 0.02);
+  EXPECT_NEAR(angle_between(turned, r.truth.back().map_T_base.yaw - r.truth.front().map_T_base.yaw), 0.0,
+              0.02);
 }
 
 TEST_F(Drive, KeepsItsOdometryInTheClassOfItsOptions) {
@@ -132,8 +143,9 @@ TEST_F(Drive, KeepsItsOdometryInTheClassOfItsOptions) {
       counted += distance(odometry[k - 1].odom_T_base, odometry[k].odom_T_base);
       driven += distance(r.truth[k - 1].map_T_base, r.truth[k].map_T_base);
     }
-    const double yaw_error = angle_between(between(r.truth.front().map_T_base, r.truth.back().map_T_base).yaw,
-                                           between(odometry.front().odom_T_base, odometry.back().odom_T_base).yaw);
+    const double yaw_error =
+        angle_between(between(r.truth.front().map_T_base, r.truth.back().map_T_base).yaw,
+                      between(odometry.front().odom_T_base, odometry.back().odom_T_base).yaw);
     scale_square += std::pow(counted / driven - 1.0, 2);
     yaw_square += std::pow(yaw_error / driven, 2);
   }

@@ -31,7 +31,8 @@ class Variogram {
     double last_at = 0.0, last = 0.0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       if (count_[bin] < 30) continue;
-      const double at = (static_cast<double>(bin) + 0.5) * kBin_m, share = 0.5 * sum_[bin] / count_[bin] / variance;
+      const double at = (static_cast<double>(bin) + 0.5) * kBin_m,
+                   share = 0.5 * sum_[bin] / count_[bin] / variance;
       if (share >= 0.5) return last_at + (at - last_at) * (0.5 - last) / (share - last);
       last_at = at;
       last = share;
@@ -82,9 +83,13 @@ Variogram across_variogram(const std::vector<FieldPath>& paths) {
     Vector2d along;
   };
   std::map<Key, std::vector<Entry>> cells;
-  const auto key = [](const Vector2d& p) { return Key{static_cast<int>(std::floor(p.x() / kReach_m)), static_cast<int>(std::floor(p.y() / kReach_m))}; };
+  const auto key = [](const Vector2d& p) {
+    return Key{static_cast<int>(std::floor(p.x() / kReach_m)),
+               static_cast<int>(std::floor(p.y() / kReach_m))};
+  };
   for (const FieldPath& path : paths)
-    for (std::size_t i = 0; i < path.size(); i += 2) cells[key(path[i].position_m)].push_back({path[i], direction(path, i)});
+    for (std::size_t i = 0; i < path.size(); i += 2)
+      cells[key(path[i].position_m)].push_back({path[i], direction(path, i)});
   Variogram variogram;
   for (const auto& [at, entries] : cells)
     for (const Entry& a : entries)
@@ -94,7 +99,8 @@ Variogram across_variogram(const std::vector<FieldPath>& paths) {
           if (found == cells.end()) continue;
           for (const Entry& b : found->second) {
             const Vector2d apart = b.sample.position_m - a.sample.position_m;
-            const double along = apart.dot(a.along), across = std::abs(a.along.x() * apart.y() - a.along.y() * apart.x());
+            const double along = apart.dot(a.along),
+                         across = std::abs(a.along.x() * apart.y() - a.along.y() * apart.x());
             if (std::abs(along) < kAbreast_m && across > 0.05 && std::abs(a.along.dot(b.along)) > kParallel)
               variogram.add(across, b.sample.field_uT - a.sample.field_uT);
           }
@@ -140,7 +146,8 @@ FieldStatistics statistics(const std::vector<FieldPath>& paths) {
       Vector3d part = Vector3d::Zero();
       for (std::size_t i = first; i < first + kStretch; ++i) part += path[i].field_uT / kStretch;
       double spread = 0.0;
-      for (std::size_t i = first; i < first + kStretch; ++i) spread += (path[i].field_uT - part).squaredNorm() / kStretch;
+      for (std::size_t i = first; i < first + kStretch; ++i)
+        spread += (path[i].field_uT - part).squaredNorm() / kStretch;
       local.push_back(std::sqrt(spread));
     }
   }
@@ -167,7 +174,7 @@ std::vector<FieldPath> lane_paths(const sim::World& world, double shift_m, doubl
 
 std::vector<FieldPath> survey_paths(const sim::World& world, double height_m) {
   std::vector<FieldPath> paths;
-  for (const double shift : {0.0, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6})
+  for (const double shift : {0.0, -0.5, 0.5, 0.7})
     for (FieldPath& path : lane_paths(world, shift, height_m)) paths.push_back(std::move(path));
   return paths;
 }
@@ -179,7 +186,8 @@ FieldPath read_cea(const std::string& file) {
   FieldPath path;
   while (std::getline(in, line)) {
     double x, y, z, bx, by, bz;
-    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &bx, &by, &bz) == 6) path.push_back({{x, y}, {bx, by, bz}});
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &bx, &by, &bz) == 6)
+      path.push_back({{x, y}, {bx, by, bz}});
   }
   return path;
 }

@@ -1,14 +1,15 @@
 #include "mstsl/sim/lidar.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/sim/robot.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::sim {
@@ -66,11 +67,13 @@ TEST(Lidar, HasTheDataSheetsNoise) {
     ahead.beams = 1;
     ahead.field_of_view_rad = 0.0;
     ahead.dropout = 0.0;
+    ahead.detection_range_m = 1e6;
     const World world = room({2 * distance_m, 2 * distance_m});
     double sum = 0.0, square = 0.0;
     constexpr int kScans = 4000;
     for (int i = 0; i < kScans; ++i) {
-      const double error = scan(world, {}, standing({}), 0.0, kCentred, ahead, random).ranges_m.at(0) - distance_m;
+      const double error =
+          scan(world, {}, standing({}), 0.0, kCentred, ahead, random).ranges_m.at(0) - distance_m;
       sum += error;
       square += error * error;
     }
@@ -85,7 +88,8 @@ TEST(Lidar, LosesBeamsAtRandom) {
   options.dropout = 0.05;
   int lost = 0, all = 0;
   for (int i = 0; i < 20; ++i)
-    for (const float range : scan(room({4, 4}), {}, standing({}), 0.0, kCentred, options, random).ranges_m) ++all, lost += std::isinf(range);
+    for (const float range : scan(room({4, 4}), {}, standing({}), 0.0, kCentred, options, random).ranges_m)
+      ++all, lost += std::isinf(range);
   EXPECT_NEAR(static_cast<double>(lost) / all, 0.05, 0.006);
 }
 
@@ -95,7 +99,8 @@ TEST(Lidar, LosesGlancingBeamsOnLongWallsFirst) {
   const auto share_lost = [&](double from_deg, double to_deg) {
     double lost = 0, all = 0;
     for (std::size_t i = 0; i < s.ranges_m.size(); ++i) {
-      const double angle = std::abs(degrees(s.angle_min_rad + static_cast<double>(i) * s.angle_increment_rad));
+      const double angle =
+          std::abs(degrees(s.angle_min_rad + static_cast<double>(i) * s.angle_increment_rad));
       if (angle < from_deg || angle > to_deg) continue;
       all += 1;
       lost += std::isinf(s.ranges_m[i]);
@@ -108,7 +113,8 @@ TEST(Lidar, LosesGlancingBeamsOnLongWallsFirst) {
 
 TEST(Lidar, SeesNothingBeyondItsRange) {
   Random random(5);
-  for (const float range : scan(room({100, 100}), {}, standing({}), 0.0, kCentred, exact(), random).ranges_m) EXPECT_TRUE(std::isinf(range));
+  for (const float range : scan(room({100, 100}), {}, standing({}), 0.0, kCentred, exact(), random).ranges_m)
+    EXPECT_TRUE(std::isinf(range));
 }
 
 TEST(Lidar, IsDistortedByTheRobotsMotionDuringTheSweep) {
@@ -118,9 +124,9 @@ TEST(Lidar, IsDistortedByTheRobotsMotionDuringTheSweep) {
   Trajectory moving{Stamp{}, 0.5, {{0, 0, 0}, {0.5, 0, 0}, {1.0, 0, 0}}};
   const World world = room({20, 20});
   const LaserScan s = scan(world, {}, moving, 0.0, kCentred, slow, random);
-  EXPECT_NEAR(s.ranges_m[540], 10.0 - 0.5, 0.001);        // straight ahead, half way through
-  EXPECT_NEAR(s.ranges_m[540 - 360], 10.0, 0.001);        // right
-  EXPECT_NEAR(s.ranges_m[540 + 360], 10.0, 0.001);        // left
+  EXPECT_NEAR(s.ranges_m[540], 10.0 - 0.5, 0.001);  // straight ahead, half way through
+  EXPECT_NEAR(s.ranges_m[540 - 360], 10.0, 0.001);  // right
+  EXPECT_NEAR(s.ranges_m[540 + 360], 10.0, 0.001);  // left
   const double before = s.ranges_m[540 - 180], after = s.ranges_m[540 + 180];  // 45 deg either side
   EXPECT_NEAR(std::sqrt(0.5) * before, 10.0 - 180.0 / 540.0, 0.001 + 1e-3);
   EXPECT_NEAR(std::sqrt(0.5) * after, 10.0 - 360.0 / 540.0 + 0.0, 0.4);
@@ -164,7 +170,8 @@ TEST(People, StepAside) {
   const People people(world, {100.0, 1.2, 0.06, 0.5}, Random(2));
   for (int i = 0; i < 50; ++i) {
     const Vector2d robot = point_along(world.lanes()[0].center, 0.02 * i);
-    for (const Leg& leg : people.legs(0.5 * i, robot, 30.0)) EXPECT_GT((leg.center_m - robot).norm(), 0.5 - 0.4);
+    for (const Leg& leg : people.legs(0.5 * i, robot, 30.0))
+      EXPECT_GT((leg.center_m - robot).norm(), 0.5 - 0.4);
   }
 }
 

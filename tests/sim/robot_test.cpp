@@ -1,8 +1,8 @@
 #include "mstsl/sim/robot.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 
@@ -13,7 +13,8 @@ using Eigen::Vector3d;
 
 OdometryOptions perfect_wheels() {
   OdometryOptions options;
-  options.scale_sigma = options.drift_sigma_rad_per_m = options.noise_m_per_sqrt_m = options.slips_per_m = 0.0;
+  options.scale_sigma = options.drift_sigma_rad_per_m = options.noise_m_per_sqrt_m = options.slips_per_m =
+      0.0;
   return options;
 }
 
@@ -68,7 +69,8 @@ TEST(WheelOdometry, GathersNoiseWithTheSquareRootOfTheWay) {
       length_square += std::pow(pose.x - metres, 2);
       yaw_square += pose.yaw * pose.yaw;
     }
-    EXPECT_NEAR(std::sqrt(yaw_square / kRuns), 0.01 * std::sqrt(2.0 * metres) / options.wheel_base_m, 0.004 * std::sqrt(metres));
+    EXPECT_NEAR(std::sqrt(yaw_square / kRuns), 0.01 * std::sqrt(2.0 * metres) / options.wheel_base_m,
+                0.004 * std::sqrt(metres));
     EXPECT_NEAR(std::sqrt(length_square / kRuns), 0.01 * std::sqrt(metres / 2.0), 0.0015 * std::sqrt(metres));
   }
 }
@@ -107,7 +109,8 @@ TEST(Magnetometer, HasTheBiasAndNoiseOfItsOptions) {
     Magnetometer magnetometer(options, Random(run));
     bias_square += magnetometer.bias_uT().squaredNorm() / 3.0;
     for (int i = 0; i < kReadings; ++i)
-      noise_square += (magnetometer.read(field, 0, 0, 0.01) - field - magnetometer.bias_uT()).squaredNorm() / 3.0;
+      noise_square +=
+          (magnetometer.read(field, 0, 0, 0.01) - field - magnetometer.bias_uT()).squaredNorm() / 3.0;
   }
   EXPECT_NEAR(std::sqrt(bias_square / kRuns), 0.3, 0.02);
   EXPECT_NEAR(std::sqrt(noise_square / kRuns / kReadings), 0.1, 0.005);
@@ -118,7 +121,8 @@ TEST(Magnetometer, FeelsTheMotorsInProportionToTheWheels) {
   options.noise_uT = options.bias_sigma_uT = 0.0;
   options.motor_uT_per_m_s = 4.0;
   Magnetometer magnetometer(options, Random(3));
-  const Vector3d one = magnetometer.read(Vector3d::Zero(), 0.5, 0, 0.01), two = magnetometer.read(Vector3d::Zero(), 1.0, 0, 0.01);
+  const Vector3d one = magnetometer.read(Vector3d::Zero(), 0.5, 0, 0.01),
+                 two = magnetometer.read(Vector3d::Zero(), 1.0, 0, 0.01);
   EXPECT_NEAR(two.norm(), 4.0, 1e-9);
   EXPECT_NEAR((two - 2 * one).norm(), 0.0, 1e-12);
   EXPECT_EQ(magnetometer.read(Vector3d::Zero(), 0, 0, 0.01), Vector3d::Zero());
@@ -141,8 +145,14 @@ TEST(Magnetometer, DriftsAsARandomWalk) {
 TEST(Rig, TurnsTheTiltedMagnetometerByRollPitchYaw) {
   const Rig rig = tilted_rig({0.0, 0.0, radians(90)});
   EXPECT_NEAR((rig.base_T_magnetometer.linear() * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((tilted_rig({radians(90), 0, 0}).base_T_magnetometer.linear() * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((tilted_rig({0, radians(90), 0}).base_T_magnetometer.linear() * Vector3d::UnitX() + Vector3d::UnitZ()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(
+      (tilted_rig({radians(90), 0, 0}).base_T_magnetometer.linear() * Vector3d::UnitY() - Vector3d::UnitZ())
+          .norm(),
+      0.0, 1e-12);
+  EXPECT_NEAR(
+      (tilted_rig({0, radians(90), 0}).base_T_magnetometer.linear() * Vector3d::UnitX() + Vector3d::UnitZ())
+          .norm(),
+      0.0, 1e-12);
 }
 
 }  // namespace

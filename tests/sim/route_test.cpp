@@ -1,13 +1,14 @@
 #include "mstsl/sim/route.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/sim/run.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::sim {
@@ -21,7 +22,8 @@ World corridor() { return must(make_world("corridor", {}, Random(1))); }
 double least_clearance(const World& world, const std::vector<Vector2d>& path) {
   double least = 10.0;
   for (const Segment& leg : polyline(path, false))
-    for (double t = 0; t <= 1.0; t += 0.01) least = std::min(least, world.surfaces().clearance(point_along(leg, t), 2.0));
+    for (double t = 0; t <= 1.0; t += 0.01)
+      least = std::min(least, world.surfaces().clearance(point_along(leg, t), 2.0));
   return least;
 }
 
@@ -36,7 +38,8 @@ TEST(Route, IsCutToALength) {
 
 TEST(PlanPath, LeadsRoundTheBlockWithRoomOnBothSides) {
   const World world = corridor();
-  const Vector2d start = point_along(world.lanes()[0].center, 0.5), goal = point_along(world.lanes()[1].center, 0.5);
+  const Vector2d start = point_along(world.lanes()[0].center, 0.5),
+                 goal = point_along(world.lanes()[1].center, 0.5);
   const auto path = must(plan_path(world, start, goal));
   EXPECT_EQ(path.front(), start);
   EXPECT_EQ(path.back(), goal);

@@ -1,11 +1,11 @@
 #include "mstsl/sim/segment_index.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/core/random.hpp"
@@ -19,17 +19,21 @@ std::vector<Segment> random_segments(Random& random, int count) {
   std::vector<Segment> segments;
   for (int i = 0; i < count; ++i) {
     const Vector2d a(random.uniform(-20, 20), random.uniform(-10, 10));
-    const double length = random.chance(0.1) ? 30.0 : random.uniform(0.0, 3.0), angle = random.uniform(-kPi, kPi);
+    const double length = random.chance(0.1) ? 30.0 : random.uniform(0.0, 3.0),
+                 angle = random.uniform(-kPi, kPi);
     segments.push_back({a, a + length * Vector2d(std::cos(angle), std::sin(angle))});
   }
   return segments;
 }
 
 /// The plain way: every segment in turn.
-std::optional<double> cast_plainly(const std::vector<Segment>& segments, const Vector2d& origin, const Vector2d& direction, double max_m) {
+std::optional<double> cast_plainly(const std::vector<Segment>& segments, const Vector2d& origin,
+                                   const Vector2d& direction, double max_m) {
   std::optional<double> nearest;
   for (const Segment& s : segments)
-    if (const auto hit = SegmentIndex({s}).cast(origin, direction, max_m); hit && (!nearest || hit->range_m < *nearest)) nearest = hit->range_m;
+    if (const auto hit = SegmentIndex({s}).cast(origin, direction, max_m);
+        hit && (!nearest || hit->range_m < *nearest))
+      nearest = hit->range_m;
   return nearest;
 }
 

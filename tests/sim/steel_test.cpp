@@ -1,12 +1,13 @@
 #include "mstsl/sim/steel.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/random.hpp"
 #include "mstsl/sim/world.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::sim {
@@ -15,7 +16,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Vector3d any_vector(Random& random, double size) { return size * Vector3d(random.normal(), random.normal(), random.normal()); }
+Vector3d any_vector(Random& random, double size) {
+  return size * Vector3d(random.normal(), random.normal(), random.normal());
+}
 
 /// dB_i / dx_j by central differences.
 template <typename Field>
@@ -65,14 +68,22 @@ TEST(PolePair, StaysFiniteAtItsCharges) {
   EXPECT_LE(field_uT(pair, {1.0, 0.0, 0.05}).norm(), 3.0 / (0.05 * 0.05) + 1.0);
 }
 
+/// Pair by pair, without the tree.
+Vector3d plain_sum(const SteelField& field, const Vector3d& position) {
+  Vector3d sum = field.earth().in_map_uT();
+  for (const PolePair& pair : field.pairs()) sum += field_uT(pair, position);
+  return sum;
+}
+
 TEST(SteelField, HasNeitherSourcesNorCurlsAwayFromThePoles) {
   const World world = test::must(make_world("corridor", {}, Random(1)));
   Random random(2);
   double steepest = 0.0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 30; ++i) {
     const Lane& lane = world.lanes()[random.index(world.lanes().size())];
     const Eigen::Vector2d at = point_along(lane.center, random.uniform());
-    const Matrix3d g = gradient([&](const Vector3d& p) { return world.field_uT(p); }, {at.x(), at.y(), 0.7});
+    const Matrix3d g =
+        gradient([&](const Vector3d& p) { return plain_sum(world.field(), p); }, {at.x(), at.y(), 0.7});
     const double scale = g.cwiseAbs().maxCoeff();
     steepest = std::max(steepest, scale);
     EXPECT_NEAR(g.trace(), 0.0, 1e-5 * std::max(1.0, scale));
@@ -89,11 +100,10 @@ TEST(SteelField, AgreesWithThePlainSumOverAllPairs) {
     double square_sum = 0.0;
     constexpr int kPoints = 60;
     for (int i = 0; i < kPoints; ++i) {
-      const Eigen::Vector2d at = point_along(world.lanes()[random.index(world.lanes().size())].center, random.uniform());
+      const Eigen::Vector2d at =
+          point_along(world.lanes()[random.index(world.lanes().size())].center, random.uniform());
       const Vector3d position(at.x(), at.y(), random.uniform(0.3, 1.5));
-      Vector3d plain = world.field().earth().in_map_uT();
-      for (const PolePair& pair : world.field().pairs()) plain += field_uT(pair, position);
-      const double error = (world.field_uT(position) - plain).norm();
+      const double error = (world.field_uT(position) - plain_sum(world.field(), position)).norm();
       EXPECT_LT(error, kNegligible_uT) << name;
       square_sum += error * error;
     }
@@ -127,7 +137,8 @@ TEST(Rod, IsHarderToMagnetiseWhenStout) {
   const EarthField earth{50.0, radians(90.0), 0.0};
   const auto magnetisation = [&](double length_m) {
     const double section_m2 = 1e-2;
-    return std::abs(magnetised({{0, 0, 0}, {0, 0, length_m}, section_m2, 0.0}, earth).strength_uTm2) / section_m2;
+    return std::abs(magnetised({{0, 0, 0}, {0, 0, length_m}, section_m2, 0.0}, earth).strength_uTm2) /
+           section_m2;
   };
   EXPECT_GT(magnetisation(10.0), 3.0 * magnetisation(1.0));
   // A ball's demagnetising factor is 1/3: M = 3 H for soft iron, H = B / mu0.

@@ -1,13 +1,12 @@
 #include "mstsl/sim/survey.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "mstsl/core/angles.hpp"
+#include <gtest/gtest.h>
+
 #include "mstsl/sim/trajectory.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::sim {
@@ -30,12 +29,14 @@ double fingerprints(const std::vector<Route>& routes) {
 }
 
 TEST(Survey, ReachesThePapersNumbersOfFingerprints) {
-  for (const auto& [name, wanted] : {std::pair("corridor", std::size_t{67238}), std::pair("carpark", std::size_t{118688})}) {
+  for (const auto& [name, wanted] :
+       {std::pair("corridor", std::size_t{67238}), std::pair("carpark", std::size_t{118688})}) {
     SurveyOptions options;
     options.fingerprints = wanted;
     const auto routes = must(survey_routes(must(make_world(name, {}, Random(1))), options));
     EXPECT_NEAR(total(routes), 0.05 * static_cast<double>(wanted), 0.01) << name;
-    EXPECT_NEAR(fingerprints(routes), static_cast<double>(wanted), 0.03 * static_cast<double>(wanted)) << name;
+    EXPECT_NEAR(fingerprints(routes), static_cast<double>(wanted), 0.03 * static_cast<double>(wanted))
+        << name;
   }
 }
 
@@ -43,15 +44,20 @@ TEST(Survey, DrivesEachLaneBothWays) {
   for (const std::string& name : world_names()) {
     const World world = must(make_world(name, {}, Random(1)));
     const auto routes = must(survey_routes(world, {}));
-    std::map<int, double> metres;  // by heading in steps of 90 deg
-    for (const Route& route : routes)
-      for (const Segment& leg : polyline(route.waypoints_m, false)) {
-        const double quarters = std::atan2(leg.b.y() - leg.a.y(), leg.b.x() - leg.a.x()) / (kPi / 2);
-        if (std::abs(quarters - std::round(quarters)) < 1e-3) metres[static_cast<int>(std::lround(quarters) + 4) % 4] += length(leg);
-      }
-    EXPECT_NEAR(metres[0] / metres[2], 1.0, 0.1) << name;
-    EXPECT_NEAR(metres[1] / metres[3], 1.0, 0.1) << name;
-    EXPECT_GT(metres[0] + metres[1] + metres[2] + metres[3], 0.8 * total(routes)) << name;
+    for (const Lane& lane : world.lanes()) {
+      const Vector2d ahead = (lane.center.b - lane.center.a).normalized();
+      double forth_m = 0.0, back_m = 0.0;
+      for (const Route& route : routes)
+        for (const Segment& leg : polyline(route.waypoints_m, false)) {
+          const double along = (leg.b - leg.a).dot(ahead);
+          if (std::abs(along) < 0.999 * length(leg) ||
+              distance(point_along(leg, 0.5), lane.center) > 0.5 * lane.free_width_m)
+            continue;
+          (along > 0 ? forth_m : back_m) += length(leg);
+        }
+      EXPECT_GT(forth_m, 0.8 * length(lane.center)) << name;
+      EXPECT_GT(back_m, 0.8 * length(lane.center)) << name;
+    }
   }
 }
 
@@ -62,7 +68,8 @@ TEST(Survey, PassesEveryLane) {
     for (const double t : {0.1, 0.5, 0.9}) {
       double away = 1e9;
       for (const Route& route : routes)
-        for (const Segment& leg : polyline(route.waypoints_m, false)) away = std::min(away, distance(point_along(lane.center, t), leg));
+        for (const Segment& leg : polyline(route.waypoints_m, false))
+          away = std::min(away, distance(point_along(lane.center, t), leg));
       EXPECT_LT(away, 0.3);
     }
 }
@@ -72,7 +79,8 @@ TEST(Survey, KeepsClearOfTheWalls) {
     const World world = must(make_world(name, {}, Random(1)));
     for (const Route& route : must(survey_routes(world, {})))
       for (const Segment& leg : polyline(route.waypoints_m, false))
-        for (double t = 0; t <= 1; t += 0.02) ASSERT_GT(world.surfaces().clearance(point_along(leg, t), 1.0), 0.2) << name;
+        for (double t = 0; t <= 1; t += 0.02)
+          ASSERT_GT(world.surfaces().clearance(point_along(leg, t), 1.0), 0.2) << name;
   }
 }
 
@@ -82,7 +90,7 @@ TEST(Survey, GrowsWithPassesAndShrinksWithSpacing) {
   twice.passes = 2;
   sparse.lane_spacing_m = 2.0;
   const double once = total(must(survey_routes(world, {})));
-  EXPECT_NEAR(total(must(survey_routes(world, twice))) / once, 2.0, 0.05);
+  EXPECT_NEAR(total(must(survey_routes(world, twice))) / once, 2.0, 0.1);
   EXPECT_LT(total(must(survey_routes(world, sparse))), 0.5 * once);
 }
 

@@ -1,9 +1,9 @@
 #include "mstsl/sim/trajectory.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/sim/segment.hpp"
@@ -17,7 +17,8 @@ const Route kCorner{radians(30), {{0, 0}, {5, 0}, {8, 0.8}, {12, 0.8}, {12, 6}, 
 
 double largest_step(const Trajectory& trajectory) {
   double largest = 0.0;
-  for (std::size_t i = 1; i < trajectory.poses.size(); ++i) largest = std::max(largest, distance(trajectory.poses[i - 1], trajectory.poses[i]));
+  for (std::size_t i = 1; i < trajectory.poses.size(); ++i)
+    largest = std::max(largest, distance(trajectory.poses[i - 1], trajectory.poses[i]));
   return largest;
 }
 
@@ -44,7 +45,8 @@ TEST(Follow, RespectsTheLimits) {
     const double now = distance(t.poses[i - 1], t.poses[i]) / t.step_s;
     EXPECT_LE(now - speed, motion.acceleration_m_s2 * t.step_s + 1e-6);
     speed = now;
-    EXPECT_LE(std::abs(angle_between(t.poses[i - 1].yaw, t.poses[i].yaw)) / t.step_s, motion.turn_rate_rad_s + 0.05);
+    EXPECT_LE(std::abs(angle_between(t.poses[i - 1].yaw, t.poses[i].yaw)) / t.step_s,
+              motion.turn_rate_rad_s + 0.05);
   }
 }
 
@@ -52,7 +54,8 @@ TEST(Follow, MovesAsADifferentialDriveCan) {
   const Trajectory t = follow(kCorner, {}, {}, Random(3));
   for (std::size_t i = 1; i < t.poses.size(); ++i) {
     const Pose2 step = between(t.poses[i - 1], t.poses[i]);
-    EXPECT_NEAR(step.y * std::cos(0.5 * step.yaw) - step.x * std::sin(0.5 * step.yaw), 0.0, 1e-9) << "no wheel slides sideways";
+    EXPECT_NEAR(step.y * std::cos(0.5 * step.yaw) - step.x * std::sin(0.5 * step.yaw), 0.0, 1e-9)
+        << "no wheel slides sideways";
     EXPECT_GE(step.x, -1e-9) << "it drives forwards";
   }
 }

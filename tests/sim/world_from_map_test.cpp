@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/sim/lidar.hpp"
@@ -11,6 +11,7 @@
 #include "mstsl/sim/run.hpp"
 #include "mstsl/sim/survey.hpp"
 #include "mstsl/sim/world.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::sim {
@@ -26,8 +27,10 @@ OccupancyGrid read_loop() {
   in >> token;
   while (header.size() < 3) {
     in >> std::ws;
-    if (in.peek() == '#') std::getline(in, token);
-    else in >> header.emplace_back();
+    if (in.peek() == '#')
+      std::getline(in, token);
+    else
+      in >> header.emplace_back();
   }
   in.get();
   const GridGeometry geometry{0.05, header[0], header[1], {-24.376517, -18.846185, 0}};
@@ -35,8 +38,10 @@ OccupancyGrid read_loop() {
   for (int row = geometry.rows - 1; row >= 0; --row)
     for (int column = 0; column < geometry.columns; ++column) {
       const double occupancy = (255 - in.get()) / 255.0;
-      if (occupancy > 0.65) map[{column, row}] = CellState::kOccupied;
-      else if (occupancy < 0.196) map[{column, row}] = CellState::kFree;
+      if (occupancy > 0.65)
+        map[{column, row}] = CellState::kOccupied;
+      else if (occupancy < 0.196)
+        map[{column, row}] = CellState::kFree;
     }
   return map;
 }
@@ -51,9 +56,11 @@ class MapOfCorridor : public ::testing::Test {
 
 TEST_F(MapOfCorridor, HasItsWallsWhereTheMapHasThem) {
   for (const Segment& wall : origin_.surfaces().segments())
-    for (const double t : {0.0, 0.3, 0.8}) EXPECT_LT(traced_.surfaces().clearance(point_along(wall, t), 1.0), 0.08);
+    for (const double t : {0.0, 0.3, 0.8})
+      EXPECT_LT(traced_.surfaces().clearance(point_along(wall, t), 1.0), 0.08);
   for (const Segment& wall : traced_.surfaces().segments())
-    for (const double t : {0.0, 0.5}) EXPECT_LT(origin_.surfaces().clearance(point_along(wall, t), 1.0), 0.08);
+    for (const double t : {0.0, 0.5})
+      EXPECT_LT(origin_.surfaces().clearance(point_along(wall, t), 1.0), 0.08);
 }
 
 TEST_F(MapOfCorridor, IsSeenByLidarAsTheOriginal) {
@@ -62,13 +69,15 @@ TEST_F(MapOfCorridor, IsSeenByLidarAsTheOriginal) {
   exact.detection_range_m = 1e6;
   double close = 0.0, all = 0.0;
   for (int i = 0; i < 20; ++i) {
-    const Trajectory standing{{}, 0.01, {Pose2::from(must(random_waypoint(origin_, {}, Random(i))), 0.3 * i)}};
+    const Trajectory standing{
+        {}, 0.01, {Pose2::from(must(random_waypoint(origin_, {}, Random(i))), 0.3 * i)}};
     Random random(1);
     const auto a = scan(origin_, {}, standing, 0, default_rig().base_T_laser, exact, random);
     const auto b = scan(traced_, {}, standing, 0, default_rig().base_T_laser, exact, random);
     for (std::size_t k = 0; k < a.ranges_m.size(); ++k, all += 1.0) {
       const double tolerance = 0.05 + 0.02 * a.ranges_m[k];  // glancing beams magnify half a cell
-      close += std::abs(a.ranges_m[k] - b.ranges_m[k]) < tolerance || (std::isinf(a.ranges_m[k]) && std::isinf(b.ranges_m[k]));
+      close += std::abs(a.ranges_m[k] - b.ranges_m[k]) < tolerance ||
+               (std::isinf(a.ranges_m[k]) && std::isinf(b.ranges_m[k]));
     }
   }
   EXPECT_GT(close / all, 0.9);
@@ -79,7 +88,8 @@ TEST_F(MapOfCorridor, FindsTheCorridorsAsLanes) {
   for (const Lane& lane : traced_.lanes()) {
     const Eigen::Vector2d way = lane.center.b - lane.center.a;
     std::abs(way.x()) > std::abs(way.y()) ? along_x += way.norm() : along_y += way.norm();
-    EXPECT_GT(origin_.surfaces().clearance(point_along(lane.center, 0.5), 2.0), 0.6) << "in the middle of the corridor";
+    EXPECT_GT(origin_.surfaces().clearance(point_along(lane.center, 0.5), 2.0), 0.6)
+        << "in the middle of the corridor";
   }
   EXPECT_GT(along_x, 80.0);
   EXPECT_GT(along_y, 30.0);
@@ -87,7 +97,8 @@ TEST_F(MapOfCorridor, FindsTheCorridorsAsLanes) {
 
 TEST_F(MapOfCorridor, GivesBackTheMap) {
   EXPECT_EQ(occupancy_map(traced_, 0.05).values(), map_.values());
-  EXPECT_GT(count(occupancy_map(traced_, 0.1), CellState::kFree), 1000u) << "or draws one of another resolution";
+  EXPECT_GT(count(occupancy_map(traced_, 0.1), CellState::kFree), 1000u)
+      << "or draws one of another resolution";
 }
 
 TEST_F(MapOfCorridor, IsDrivenAndSurveyed) {

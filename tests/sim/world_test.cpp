@@ -1,16 +1,17 @@
 #include "mstsl/sim/world.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/sim/lidar.hpp"
 #include "mstsl/sim/occupancy_map.hpp"
-#include "mstsl/sim/run.hpp"
 #include "mstsl/sim/robot.hpp"
+#include "mstsl/sim/run.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::sim {
@@ -30,23 +31,28 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryWorld, ::testing::ValuesIn(world_names())
   return name;
 });
 
-float clearance_at(const World& world, const Vector2d& point) { return world.clearance_m()[world.clearance_m().geometry().cell_at(point)]; }
+float clearance_at(const World& world, const Vector2d& point) {
+  return world.clearance_m()[world.clearance_m().geometry().cell_at(point)];
+}
 
 TEST_P(EveryWorld, KeepsItsLanesFree) {
   for (const Lane& lane : world_.lanes())
-    for (double t = 0; t <= 1.0; t += 0.01) EXPECT_GE(clearance_at(world_, point_along(lane.center, t)), 0.3f);
+    for (double t = 0; t <= 1.0; t += 0.01)
+      EXPECT_GE(clearance_at(world_, point_along(lane.center, t)), 0.3f);
 }
 
 TEST_P(EveryWorld, ConnectsAllLanes) {
   for (const Lane& lane : world_.lanes()) {
     const auto path = plan_path(world_, world_.lanes().front().center.a, lane.center.b);
     ASSERT_TRUE(path) << path.error().message();
-    for (std::size_t i = 1; i < path->size(); ++i) EXPECT_FALSE(world_.surfaces().blocked((*path)[i - 1], (*path)[i]));
+    for (std::size_t i = 1; i < path->size(); ++i)
+      EXPECT_FALSE(world_.surfaces().blocked((*path)[i - 1], (*path)[i]));
   }
 }
 
 TEST_P(EveryWorld, IsTheSameForTheSameSeed) {
-  const World again = must(make_world(GetParam(), {}, Random(5))), other = must(make_world(GetParam(), {}, Random(6)));
+  const World again = must(make_world(GetParam(), {}, Random(5))),
+              other = must(make_world(GetParam(), {}, Random(6)));
   ASSERT_EQ(again.surfaces().segments().size(), world_.surfaces().segments().size());
   for (std::size_t i = 0; i < again.surfaces().segments().size(); ++i)
     EXPECT_EQ(again.surfaces().segments()[i].a, world_.surfaces().segments()[i].a);
@@ -64,13 +70,15 @@ TEST_P(EveryWorld, MapsWhatItsWallsAre) {
   }
   for (std::size_t i = 0; i < map.values().size(); i += 7) {
     if (map.values()[i] != CellState::kOccupied) continue;
-    EXPECT_LT(world_.surfaces().clearance(map.geometry().center_of(map.geometry().cell(i)), 1.0), 0.05 * std::sqrt(0.5) + 1e-9);
+    EXPECT_LT(world_.surfaces().clearance(map.geometry().center_of(map.geometry().cell(i)), 1.0),
+              0.05 * std::sqrt(0.5) + 1e-9);
   }
 }
 
 TEST_P(EveryWorld, MapsItsGroundAsFreeAndTheOutsideAsUnknown) {
   const OccupancyGrid map = occupancy_map(world_, 0.05);
-  for (const Lane& lane : world_.lanes()) EXPECT_EQ(state_at(map, point_along(lane.center, 0.37)), CellState::kFree);
+  for (const Lane& lane : world_.lanes())
+    EXPECT_EQ(state_at(map, point_along(lane.center, 0.37)), CellState::kFree);
   for (std::size_t i = 0; i < map.values().size(); ++i) {
     if (map.values()[i] != CellState::kFree) continue;
     ASSERT_TRUE(world_.plan().footprint_m.contains(map.geometry().center_of(map.geometry().cell(i))));
@@ -81,8 +89,10 @@ TEST_P(EveryWorld, MapsItsGroundAsFreeAndTheOutsideAsUnknown) {
 
 TEST_P(EveryWorld, IsClosedWhereRobotsDriveOrEndsWithinItsFootprint) {
   for (std::size_t i = 0; i < world_.clearance_m().values().size(); ++i)
-    if (world_.clearance_m().values()[i] > 0)
-      ASSERT_TRUE(world_.plan().footprint_m.contains(world_.clearance_m().geometry().center_of(world_.clearance_m().geometry().cell(i))));
+    if (world_.clearance_m().values()[i] > 0) {
+      ASSERT_TRUE(world_.plan().footprint_m.contains(
+          world_.clearance_m().geometry().center_of(world_.clearance_m().geometry().cell(i))));
+    }
 }
 
 TEST_P(EveryWorld, StaysAsItIsIfNothingMoves) {
@@ -100,7 +110,9 @@ TEST_P(EveryWorld, ChangesOnlyItsMovableThingsOverTime) {
   for (const Lane& lane : world_.lanes())
     for (double t = 0; t < 1.0; t += 0.05) {
       const Vector2d at = point_along(lane.center, t);
-      change += (later.field_uT({at.x(), at.y(), 0.7}) - world_.field_uT({at.x(), at.y(), 0.7})).squaredNorm() / 3.0;
+      change +=
+          (later.field_uT({at.x(), at.y(), 0.7}) - world_.field_uT({at.x(), at.y(), 0.7})).squaredNorm() /
+          3.0;
       count += 1.0;
     }
   const double rms_uT = std::sqrt(change / count);
@@ -129,10 +141,12 @@ TEST(World, SaysWhichWorldsThereAre) {
 }
 
 TEST(World, RefusesSizesItCannotBuildIn) {
-  for (const Vector2d& size : {Vector2d(3, 3), Vector2d(1e6, 20), Vector2d(60, std::numeric_limits<double>::infinity())}) {
+  for (const Vector2d& size :
+       {Vector2d(3, 3), Vector2d(1e6, 20), Vector2d(60, std::numeric_limits<double>::infinity())}) {
     WorldOptions options;
     options.size_m = size;
-    for (const std::string& name : world_names()) EXPECT_FALSE(make_world(name, options, Random(1))) << name << size.transpose();
+    for (const std::string& name : world_names())
+      EXPECT_FALSE(make_world(name, options, Random(1))) << name << size.transpose();
   }
 }
 
@@ -156,7 +170,8 @@ TEST(World, HasStrongerSteelWhenAskedTo) {
     }
     return sum;
   };
-  EXPECT_LT(4.0 * spread(must(make_world("corridor", none, Random(1)))), spread(must(make_world("corridor", {}, Random(1)))));
+  EXPECT_LT(4.0 * spread(must(make_world("corridor", none, Random(1)))),
+            spread(must(make_world("corridor", {}, Random(1)))));
 }
 
 /// The corridor's point: seen by lidar, opposite poses are the same; felt by a magnetometer, they are not.
@@ -176,7 +191,8 @@ TEST(Corridor, LooksAlikeFromOppositePosesButFeelsDifferent) {
     };
     const LaserScan a = scan_at(here), b = scan_at(there);
     for (std::size_t k = 0; k < a.ranges_m.size(); ++k, beams += 1.0)
-      alike += std::abs(a.ranges_m[k] - b.ranges_m[k]) < 0.1 || (std::isinf(a.ranges_m[k]) && std::isinf(b.ranges_m[k]));
+      alike += std::abs(a.ranges_m[k] - b.ranges_m[k]) < 0.1 ||
+               (std::isinf(a.ranges_m[k]) && std::isinf(b.ranges_m[k]));
     const auto felt = [&](const Pose2& pose) {
       return Eigen::Vector3d(to_isometry3(pose).linear().transpose() * world.field_uT({pose.x, pose.y, 0.7}));
     };

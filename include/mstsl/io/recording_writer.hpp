@@ -20,9 +20,9 @@ class RecordingWriter {
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
   ~RecordingWriter();
 
-  /// Events go to the topic of their kind, and nowhere if that has no name. An OdometryRestart may only come first: a
-  /// log holds one run of odometry. Errors: a full disk, a stamp that ROS cannot hold (before 1970 or after 2038), a
-  /// restart in the middle.
+  /// Events go to the topic of their kind, and nowhere if that has no name. An OdometryRestart may only come
+  /// first: a log holds one run of odometry. Errors: a full disk, a stamp that ROS cannot hold (before 1970
+  /// or after 2038), a restart in the middle.
   Result<void> write(const SensorEvent& event);
   Result<void> close();
 

@@ -42,8 +42,10 @@ struct LidarStageOptions {
   /// laser's noise, are the same for every point on a wall.
   double likelihood_temper = 1.0;
 
-  /// An answer is given when its probability reaches this ...
-  double answer_probability = 0.9;
+  /// An answer is given when it holds so much of the weight of the hypotheses that are left: the paper's
+  /// answer is the one that survives the others. "None of these" has no say in when, only in the probability
+  /// ...
+  double answer_share = 0.95;
   /// ... or when this distance, in m, was driven since the initial hypotheses, to the best that is left; the
   /// paper calls an answer after more than 10 m a failure.
   double answer_distance_m = 8.0;
@@ -84,8 +86,8 @@ class LidarStage {
   double driven_m() const { return driven_m_; }
   bool all_rejected() const;
 
-  /// The probability of each hypothesis, in their order: Eq. 1's product, normalised over those left and "none of
-  /// these", and never more than LidarStageOptions::max_probability together. Removed ones have 0.
+  /// The probability of each hypothesis, in their order: Eq. 1's product, normalised over those left and
+  /// "none of these", and never more than LidarStageOptions::max_probability together. Removed ones have 0.
   std::vector<double> weights() const;
 
   struct Answer {

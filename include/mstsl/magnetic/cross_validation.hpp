@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,14 +50,16 @@ std::vector<HeldOutError> held_out_errors(std::span<const Fingerprint> fingerpri
                                           const std::vector<HeldOutStretch>& stretches,
                                           const Predictor& predict, Threads threads);
 
-/// How the variance of a prediction becomes that of a later reading: factor * variance + reading variance.
+/// How the variance v of a prediction becomes that of a later reading: the odds v : (prior - v) are
+/// multiplied by `factor` (so v itself is, where it is small, and a place far from all data keeps the prior's
+/// variance), and the variance of a reading is added.
 struct VarianceCalibration {
   Eigen::Array3d factor = Eigen::Array3d::Ones();
   Eigen::Array3d reading_sd_uT = Eigen::Array3d::Zero();
+  /// Standard deviation of the field where nothing is known.
+  Eigen::Array3d prior_sd_uT = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
 
-  Eigen::Array3d apply(const Eigen::Array3d& variance_uT2) const {
-    return factor * variance_uT2 + reading_sd_uT.square();
-  }
+  Eigen::Array3d apply(const Eigen::Array3d& variance_uT2) const;
 };
 
 /// The calibration under which the held-out errors are most probable (Gaussian, per component). Starts from,

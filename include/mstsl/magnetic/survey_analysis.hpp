@@ -28,6 +28,10 @@ struct SurveyAnalysisOptions {
   /// What the GPR assumes; learned from the fingerprints where absent.
   std::optional<FieldHyperparameters> hyperparameters;
   LearningOptions learning;
+  /// Whether the noise is raised from what the marginal likelihood makes of single passes to what predicts
+  /// held-out lanes best. Passes over the same floor differ by more than their readings' noise: position,
+  /// heading, moved things.
+  bool noise_from_lanes = true;
   /// Distance of the bilinear model's lattice nodes, in m; that of the lanes where absent.
   std::optional<double> bilinear_spacing_m;
   /// Whether the map's variance is corrected to what held-out lanes show. Otherwise it is the regression's

@@ -45,9 +45,8 @@ struct LocalMapOptions {
   double max_gap_m = 0.25;
   OdometryNoise odometry = {};
   BeamModel beams = {};
-  /// Narrower than against the global map, and each point counts: a scan and the map drawn of the same walls
-  /// a moment ago share no errors but the cells'.
-  LikelihoodOptions likelihood = {.sigma_m = 0.075};
+  LikelihoodOptions likelihood = {};
+  /// Each point counts: a scan and the map drawn of the same walls a moment ago share few errors.
   RefineOptions refine = {.points_per_error = 1.0};
 };
 

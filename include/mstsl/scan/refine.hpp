@@ -21,7 +21,8 @@ struct RefineOptions {
   int max_iterations = 20;
   /// Only every n-th point brings independent evidence: neighbours on one wall share the map's errors. The
   /// scan's information is divided by this; with points 0.1 m apart, 5 stands for one independent error every
-  /// half metre.
+  /// half metre. With it the errors in four real buildings are a little smaller than claimed (mean of e' C^-1
+  /// e: 0.4 to 1.1, of 3).
   double points_per_error = 5.0;
 };
 
@@ -29,8 +30,8 @@ struct Refinement {
   Pose2 map_T_base;
   double cost = 0.0;                                     ///< mean of 1 - likelihood over the points, 0 .. 1
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of scan and prior together
-  /// Of the scan alone (inverse covariance); singular where the scan does not fix the pose, as along a bare
-  /// corridor.
+  /// Of the scan alone (inverse covariance), and only what it surely says: singular where the scan does not
+  /// fix the pose, as along a bare corridor.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   bool converged = false;  ///< false: stopped by max_iterations, or there was nothing to fit
 };

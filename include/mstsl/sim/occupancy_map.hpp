@@ -5,9 +5,9 @@
 
 namespace mstsl::sim {
 
-/// The map a careful SLAM run would make of today's world: cells that a surface passes through are occupied, cells of
-/// the footprint that can be reached from the lanes are free, all else is unknown. A world that was made from a map of
-/// this resolution gives back that map. Resolution in m.
+/// The map a careful SLAM run would make of today's world: cells that a surface passes through are occupied,
+/// cells of the footprint that can be reached from the lanes are free, all else is unknown. A world that was
+/// made from a map of this resolution gives back that map. Resolution in m.
 OccupancyGrid occupancy_map(const World& world, double resolution_m = 0.05);
 
 }  // namespace mstsl::sim

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/core/random.hpp"
 #include "mstsl/core/result.hpp"
@@ -21,13 +22,14 @@ double length(const Route& route);
 Route truncated(const Route& route, double length_m);
 
 struct PathOptions {
-  double clearance_m = 0.35;          ///< least distance of the robot's centre to any surface: a 0.5 m robot and a margin
-  double preferred_clearance_m = 0.9; ///< nearer than this the path prefers to keep away
+  double clearance_m = World::kRobotClearance_m;  ///< least distance of the robot's centre to any surface
+  double preferred_clearance_m = 0.9;             ///< nearer than this the path prefers to keep away
 };
 
 /// A drivable way from one point to another: A* on the world's clearance grid, then straightened.
 /// Errors: an end that is not on driveable ground, or no way between.
 Result<std::vector<Eigen::Vector2d>> plan_path(const World& world, const Eigen::Vector2d& start_m,
-                                               const Eigen::Vector2d& goal_m, const PathOptions& options = {});
+                                               const Eigen::Vector2d& goal_m,
+                                               const PathOptions& options = {});
 
 }  // namespace mstsl::sim

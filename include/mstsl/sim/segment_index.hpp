@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/sim/segment.hpp"
 
@@ -26,8 +27,10 @@ class SegmentIndex {
 
   const std::vector<Segment>& segments() const { return segments_; }
 
-  /// The first segment along the ray from `origin_m` in the unit direction `direction`, nearer than `max_range_m`.
-  std::optional<RayHit> cast(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double max_range_m) const;
+  /// The first segment along the ray from `origin_m` in the unit direction `direction`, nearer than
+  /// `max_range_m`.
+  std::optional<RayHit> cast(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction,
+                             double max_range_m) const;
 
   /// Distance to the nearest segment, or `max_m` if all are farther.
   double clearance(const Eigen::Vector2d& point_m, double max_m) const;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/core/pose2.hpp"
 #include "mstsl/core/random.hpp"
@@ -26,18 +27,18 @@ double length(const Trajectory& trajectory);
 
 /// How the robot is driven.
 struct MotionOptions {
-  double speed_m_s = 0.7;              ///< the usual pace of such robots (0.6-0.8)
+  double speed_m_s = 0.7;  ///< the usual pace of such robots (0.6-0.8)
   double acceleration_m_s2 = 0.5;
-  double turn_rate_rad_s = 0.8;        ///< when turning in place
+  double turn_rate_rad_s = 0.8;  ///< when turning in place
   double turn_acceleration_rad_s2 = 1.5;
-  double wander_m = 0.05;              ///< SD of the slow sideways wander about the route
-  double wander_length_m = 4.0;        ///< distance over which the wander forgets itself
-  double initial_turn_rad = 0.0;       ///< the commanded turn by beta before setting out (paper, section III-A.3)
-  double standstill_s = 1.0;           ///< stands this long at the start, and again after the initial turn
+  double wander_m = 0.05;         ///< SD of the slow sideways wander about the route
+  double wander_length_m = 4.0;   ///< distance over which the wander forgets itself
+  double initial_turn_rad = 0.0;  ///< the commanded turn by beta before setting out (paper, section III-A.3)
+  double standstill_s = 1.0;      ///< stands this long at the start, and again after the initial turn
 };
 
-/// Drives a route as a differential-drive robot does: stands, turns by `initial_turn_rad`, stands, turns in place
-/// towards each leg where it must, and tracks the legs with limited speed and acceleration.
+/// Drives a route as a differential-drive robot does: stands, turns by `initial_turn_rad`, stands, turns in
+/// place towards each leg where it must, and tracks the legs with limited speed and acceleration.
 Trajectory follow(const Route& route, const MotionOptions& motion, Stamp start, const Random& random);
 
 /// Exactly along given points (a path measured by someone else), heading along the path smoothed over

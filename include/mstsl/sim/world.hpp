@@ -1,11 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "mstsl/core/random.hpp"
 #include "mstsl/core/result.hpp"
@@ -48,10 +50,10 @@ struct Spot {
 /// All that is decided about a building: what a World is made from.
 struct WorldPlan {
   std::string name;
-  double axis_yaw_rad = 0.0;       ///< yaw of the building's axis in the map frame
-  Eigen::AlignedBox2d footprint_m; ///< beyond it nothing is known and nobody drives
-  std::vector<Segment> walls;      ///< what never moves
-  std::vector<Rod> steel;          ///< what never moves
+  double axis_yaw_rad = 0.0;        ///< yaw of the building's axis in the map frame
+  Eigen::AlignedBox2d footprint_m;  ///< beyond it nothing is known and nobody drives
+  std::vector<Segment> walls;       ///< what never moves
+  std::vector<Rod> steel;           ///< what never moves
   std::vector<Spot> spots;
   std::vector<Lane> lanes;
   EarthField earth;
@@ -72,34 +74,44 @@ class World {
   Eigen::Vector3d field_uT(const Eigen::Vector3d& position_m) const { return field_.field_uT(position_m); }
   const SteelField& field() const { return field_; }
 
-  /// Distance to the nearest surface at each point of the driveable ground (at most kMaxClearance_m), and 0 where a
-  /// robot never comes from the lanes.
+  /// Distance to the nearest surface at each point of the driveable ground (at most kMaxClearance_m), and 0
+  /// where a robot never comes from the lanes.
   const Grid<float>& clearance_m() const { return clearance_m_; }
+  /// 1 on that ground within the free width of a lane, 0 beside (empty bays, corners of rooms); the same
+  /// cells.
+  const Grid<std::uint8_t>& on_lane() const { return on_lane_; }
   static constexpr double kMaxClearance_m = 2.0;
+  /// The robot's centre stays this far from every surface: a 0.5 m wide robot and a hand's margin.
+  static constexpr double kRobotClearance_m = 0.3;
 
  private:
   WorldPlan plan_;
   SegmentIndex surfaces_;
   SteelField field_;
   Grid<float> clearance_m_;
+  Grid<std::uint8_t> on_lane_;
 };
 
 struct WorldOptions {
-  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< outer length and width; zero takes the world's own default
+  Eigen::Vector2d size_m =
+      Eigen::Vector2d::Zero();  ///< outer length and width; zero takes the world's own default
   EarthField earth;
-  double asymmetry_m = 0.02;  ///< SD by which copies of a detail differ, as built; the real corridor loop has 1-3 cm
-  double magnetisation = 1.0; ///< factor on all remanence, for studies of weaker and stronger steel; 1 is realistic
-  double car_occupancy = 0.6; ///< share of bays with a parked car
+  double asymmetry_m =
+      0.02;  ///< SD by which copies of a detail differ, as built; the real corridor loop has 1-3 cm
+  double magnetisation =
+      1.0;  ///< factor on all remanence, for studies of weaker and stronger steel; 1 is realistic
+  double car_occupancy = 0.6;  ///< share of bays with a parked car
 };
 
 /// The built-in worlds: corridor, carpark, warehouse, office-wing.
 std::vector<std::string> world_names();
 
-/// A world by name. Errors: a name that is not there (the message lists those that are), a size too small to build in.
+/// A world by name. Errors: a name that is not there (the message lists those that are), a size too small to
+/// build in.
 Result<World> make_world(std::string_view name, const WorldOptions& options, const Random& random);
 
-/// A world whose walls are the occupied cells of a map, traced into segments; lanes from its free space; steel as a
-/// building of that outline has it. Errors: a map without free cells wide enough to drive on.
+/// A world whose walls are the occupied cells of a map, traced into segments; lanes from its free space;
+/// steel as a building of that outline has it. Errors: a map without free cells wide enough to drive on.
 Result<World> world_from_map(const OccupancyGrid& map, const WorldOptions& options, const Random& random);
 
 /// The same building on a later day: each spot is, with probability `moved_fraction`, decided anew.

@@ -1,5 +1,7 @@
 #include "io/log/event_filter.hpp"
 
+#include <utility>
+
 namespace mstsl::io {
 namespace {
 

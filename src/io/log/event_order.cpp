@@ -21,6 +21,9 @@ constexpr int kRowThatConvinces = 100;
 /// stamps.
 constexpr std::size_t kMostPending = 20'000;
 
+/// Jumps that get a sentence of their own; a clock that never stops jumping is only counted.
+constexpr int kMostTold = 5;
+
 }  // namespace
 
 EventOrder::EventOrder(double window_s, std::string log_name, PlayReport& report, Deliver deliver)
@@ -69,17 +72,16 @@ bool EventOrder::is_believable(Course course, Stamp log_time) {
 
 bool EventOrder::jump(Course course, Stamp to) {
   const bool back = course == Course::kLate;
-  const double by_s = to - *newest_;
   ++report_->problems[back ? "clock jumps back" : "clock jumps forward"];
-  report_->warnings.push_back(
-      fmt::format("{}: the clock jumps {} by {:.1f} s at {:.3f} s; going on from there", log_name_,
-                  back ? "back" : "forward", std::abs(by_s), newest_->seconds()));
+  if (jumps_++ < kMostTold)
+    report_->warnings.push_back(
+        fmt::format("{}: the clock jumps {} by {:.1f} s at {:.3f} s; going on from there", log_name_,
+                    back ? "back" : "forward", std::abs(to - *newest_), newest_->seconds()));
   if (!release_until(std::nullopt)) return false;
   newest_.reset();
-  released_.reset();
-  // Nobody who adds up motion over time can do so across a clock that runs back.
-  if (back) stopped_ = !deliver_(OdometryRestart{to});
-  return !stopped_;
+  if (back) released_.reset();
+  restarts_ = restarts_ || back;
+  return true;
 }
 
 bool EventOrder::release_until(std::optional<Stamp> limit) {
@@ -89,7 +91,9 @@ bool EventOrder::release_until(std::optional<Stamp> limit) {
     const Pending next = std::move(heap_.back());
     heap_.pop_back();
     released_ = next.stamp;
-    stopped_ = !deliver_(next.event);
+    // Nobody who adds up motion over time can do so across a clock that runs back.
+    if (std::exchange(restarts_, false)) stopped_ = !deliver_(OdometryRestart{next.stamp});
+    if (!stopped_) stopped_ = !deliver_(next.event);
   }
   return !stopped_;
 }

@@ -52,6 +52,8 @@ class EventOrder {
   std::optional<Stamp> newest_, newest_log_time_, released_;
   Course last_course_ = Course::kOnTime;
   int in_a_row_ = 0;  ///< events just before this one that were out of time in the same direction
+  int jumps_ = 0;
+  bool restarts_ = false;  ///< the clock ran back, and no event was given on since
   bool stopped_ = false;
 };
 

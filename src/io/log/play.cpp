@@ -1,8 +1,11 @@
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <optional>
+#include <string>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -31,6 +34,8 @@ class Player {
 
   /// False: the receiver wants no more.
   Result<bool> play(const std::filesystem::path& path);
+  /// To be called when all was played: names the sensors none of whose messages survived.
+  void check_sensors();
   PlayReport report() && { return std::move(report_); }
 
  private:
@@ -43,7 +48,8 @@ class Player {
   const OnEvent& on_event_;
   PlayReport report_;
   std::optional<Rig> rig_;
-  std::optional<Stamp> last_;  ///< of the last event given on
+  std::optional<Stamp> last_;                                            ///< of the last event given on
+  std::array<std::uint64_t, std::variant_size_v<SensorEvent>> given_{};  ///< events by kind
 };
 
 Result<bool> Player::play(const std::filesystem::path& path) {
@@ -55,6 +61,7 @@ Result<bool> Player::play(const std::filesystem::path& path) {
     const Stamp stamp = stamp_of(event);
     if (!std::exchange(begun, true) && !begin_recording((*source)->name(), stamp)) return false;
     last_ = stamp;
+    ++given_[event.index()];
     return on_event_(event);
   };
   EventFilter filter(report_, give);
@@ -64,11 +71,21 @@ Result<bool> Player::play(const std::filesystem::path& path) {
   (*source)->read(
       [&](Stamp log_time, SensorEvent event) { return goes_on = order.push(log_time, std::move(event)); },
       report_);
-  goes_on = goes_on && order.finish();
-  if (goes_on && !begun)
-    report_.warnings.push_back((*source)->name() +
-                               ": none of its messages could be used; see the counts of problems");
-  return goes_on;
+  return goes_on && order.finish();
+}
+
+void Player::check_sensors() {
+  const auto check = [this](const std::string& topic, const SensorEvent& kind) {
+    const auto seen = report_.messages.find(topic);
+    if (seen == report_.messages.end() || given_[kind.index()] > 0) return;
+    report_.warnings.push_back(fmt::format(
+        "none of the {} messages on {} could be used; see the counts of problems", seen->second, topic));
+  };
+  check(options_.topics.scan, LaserScan{});
+  check(options_.topics.magnetic_field, FieldReading{});
+  check(options_.topics.odometry, OdometryReading{});
+  check(options_.topics.imu, ImuReading{});
+  check(options_.topics.pose, PoseReading{});
 }
 
 void Player::announce(const EventSource& source) {
@@ -103,11 +120,12 @@ Result<PlayReport> play(const std::vector<std::filesystem::path>& files, const P
     try {
       const Result<bool> goes_on = player.play(file);
       if (!goes_on) return goes_on.error();
-      if (!*goes_on) break;
+      if (!*goes_on) return std::move(player).report();
     } catch (const std::bad_alloc&) {
       return Error(file.string() + ": playing it needs more memory than there is");
     }
   }
+  player.check_sensors();
   return std::move(player).report();
 }
 

@@ -1,5 +1,7 @@
 #include "mstsl/io/recording_writer.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <string>

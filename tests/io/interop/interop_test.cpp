@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "../recording_support.hpp"
 #include "reference_drive.hpp"
@@ -73,7 +73,8 @@ std::string name_of(const testing::TestParamInfo<const char*>& file) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(ByRosbag, OtherPeoplesLogs, testing::Values("none.bag", "lz4.bag", "bz2.bag"), name_of);
+INSTANTIATE_TEST_SUITE_P(ByRosbag, OtherPeoplesLogs, testing::Values("none.bag", "lz4.bag", "bz2.bag"),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(ByNpm, OtherPeoplesLogs,
                          testing::Values("none.mcap", "flat.mcap", "unindexed.mcap", "lz4.mcap", "zstd.mcap"),
                          name_of);

@@ -6,14 +6,15 @@
 #include "mstsl/core/sensor_data.hpp"
 #include "mstsl/io/recording.hpp"
 
-/// The drive that other people's programs write for us and read from us: 200 steps at 8 Hz, each with one message of
-/// every kind. Its values are exact in binary, so that they can be compared for equality. The same values stand in
-/// write_bags.py, write_mcaps.mjs and read_mcap.mjs.
+/// The drive that other people's programs write for us and read from us: 200 steps at 8 Hz, each with one
+/// message of every kind. Its values are exact in binary, so that they can be compared for equality. The same
+/// values stand in write_bags.py, write_mcaps.mjs and read_mcap.mjs.
 namespace mstsl::test {
 
 inline constexpr int kSteps = 200;
 inline constexpr int kBeams = 25;
-inline constexpr double kYaw_rad = 1.2870022175865687;  ///< of the quaternion z = 0.6, w = 0.8: 2 atan2(0.6, 0.8)
+inline constexpr double kYaw_rad =
+    1.2870022175865687;  ///< of the quaternion z = 0.6, w = 0.8: 2 atan2(0.6, 0.8)
 
 inline Stamp reference_stamp(int step) { return {1'000'000'000'000 + 125'000'000LL * step}; }
 
