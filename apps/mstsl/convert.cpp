@@ -113,8 +113,11 @@ void add_convert(CLI::App& app, Session& session) {
   command->add_flag("--no-lanes", wish->no_lanes,
                     "carmen: survey along the recorded way only, not along every lane");
   add_common_options(*command, session);
-  command->callback(
-      [wish, &session] { session.work = [wish, &session] { return convert(session, *wish); }; });
+  command->callback([wish, &session] {
+    if (wish->dataset != "carmen" && (wish->mapped_share || wish->no_lanes))
+      throw CLI::ValidationError("--mapped-share and --no-lanes are for --dataset carmen only");
+    session.work = [wish, &session] { return convert(session, *wish); };
+  });
 }
 
 }  // namespace mstsl::app

@@ -1,12 +1,12 @@
 #include "mstsl/datasets/carmen.hpp"
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "mstsl/datasets/track_log.hpp"
 #include "mstsl/datasets/windows.hpp"
@@ -24,7 +24,9 @@ constexpr std::uint64_t kRunStream = 5;
 Result<OccupancyGrid> map_of(const CarmenLog& log, std::size_t scans, const MappingOptions& options) {
   OccupancyMapper mapper(options);
   for (std::size_t i = 0; i < scans; ++i)
-    if (const Result<void> drawn = mapper.insert(log.scans[i], log.rig.base_T_laser, log.corrected[i].map_T_base); !drawn)
+    if (const Result<void> drawn =
+            mapper.insert(log.scans[i], log.rig.base_T_laser, log.corrected[i].map_T_base);
+        !drawn)
       return drawn.error().within(fmt::format("scan {}", i));
   return mapper.grid();
 }
@@ -35,8 +37,8 @@ Rig rig_of(const CarmenLog& log, const sim::RobotOptions& robot) {
 }
 
 /// Simulated drives along every lane of the map, one log each.
-Result<std::vector<Log>> lane_surveys(const std::shared_ptr<const sim::World>& world, const CarmenOptions& options,
-                                      Stamp start, const Random& random) {
+Result<std::vector<Log>> lane_surveys(const std::shared_ptr<const sim::World>& world,
+                                      const CarmenOptions& options, Stamp start, const Random& random) {
   const auto routes = sim::survey_routes(*world, options.lanes);
   if (!routes) return routes.error();
   sim::RobotOptions robot = options.robot;
@@ -50,26 +52,33 @@ Result<std::vector<Log>> lane_surveys(const std::shared_ptr<const sim::World>& w
   return logs;
 }
 
-std::string provenance(const std::filesystem::path& file, const CarmenOptions& options, const Revisits& revisits,
-                       std::size_t lane_logs) {
-  return fmt::format(
-      "Made from {}, one of the Radish logs as redistributed in acschaefer/ple.\n\n"
-      "REAL: lidar and wheel odometry. The first {:.0f} m of the way make map.yaml from the log's corrected poses. "
-      "run_*.mcap are stretches of {:.0f} m of the later {:.0f} m, with the recorded scans and the odometry of the "
-      "wheels; their truth is the log's corrected poses, with the shape of the odometry between them. Of the later "
-      "scans {:.0f} % were taken less than 1 m from the first part's way; runs keep to the {} scans on mapped free "
-      "ground, {} m from mapped walls and within {} m of that way.\n\n"
-      "SIMULATED: the magnetic field, by steel placed over the mapped walls; noise {} uT, bias {} uT (SD per axis). "
-      "survey_00.mcap reads it along the first part's way{}.\n",
-      file.filename().string(), revisits.first_m, options.runs.length_m, revisits.later_m,
-      100.0 * revisits.within_1m_share, revisits.revisiting, options.clearance_m, options.near_m,
-      options.robot.magnetometer.noise_uT, options.robot.magnetometer.bias_sigma_uT,
-      lane_logs == 0 ? std::string() : fmt::format(", {} more along every lane of the map, driven both ways", lane_logs));
+std::string provenance(const std::filesystem::path& file, const CarmenOptions& options,
+                       const Revisits& revisits, std::size_t lane_logs) {
+  const std::string lanes =
+      lane_logs == 0 ? "."
+                     : fmt::format(",\n{} more along every lane of the map, driven both ways.", lane_logs);
+  return fmt::format(R"(Made from {}, one of the Radish logs as redistributed in acschaefer/ple.
+
+REAL: lidar and wheel odometry. The first {:.0f} m of the way make map.yaml from the log's corrected poses.
+run_*.mcap are stretches of {:.0f} m of the later {:.0f} m, with the recorded scans and the odometry of the
+wheels (with one reading more at each scan, between the recorded ones). Their truth is the log's corrected
+poses, with the shape of the odometry between them. Of the later scans {:.0f} % were taken less than 1 m
+from the first part's way; runs keep to the {} scans within {} m of that way, on mapped free ground and
+{} m from mapped walls.
+
+SIMULATED: the magnetic field, by steel placed over the mapped walls; noise {} uT, bias {} uT (SD per
+axis). survey_00.mcap reads it along the first part's way{}
+)",
+                     file.filename().string(), revisits.first_m, options.runs.length_m, revisits.later_m,
+                     100.0 * revisits.within_1m_share, revisits.revisiting, options.near_m,
+                     options.clearance_m, options.robot.magnetometer.noise_uT,
+                     options.robot.magnetometer.bias_sigma_uT, lanes);
 }
 
 }  // namespace
 
-Result<Dataset> carmen(const std::filesystem::path& file, const CarmenOptions& options, const Random& random) {
+Result<Dataset> carmen(const std::filesystem::path& file, const CarmenOptions& options,
+                       const Random& random) {
   const Result<CarmenLog> log = read_carmen_log(file);
   if (!log) return log.error();
   const std::size_t split = first_scan_after(log->corrected, options.mapped_share);
@@ -103,8 +112,8 @@ Result<Dataset> carmen(const std::filesystem::path& file, const CarmenOptions& o
   dataset.provenance = provenance(file, options, revisits, dataset.surveys.size() - 1);
   for (std::size_t i = 0; i < windows->size(); ++i) {
     const auto [first, last] = (*windows)[i];
-    dataset.runs.push_back(track_log({track, log->corrected[first].stamp, log->corrected[last].stamp}, log->odometry,
-                                     log->scans, world, rig, options.robot.magnetometer,
+    dataset.runs.push_back(track_log({track, log->corrected[first].stamp, log->corrected[last].stamp},
+                                     log->odometry, log->scans, world, rig, options.robot.magnetometer,
                                      random.fork(kRunStream).fork(i)));
   }
   return dataset;

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <utility>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "mstsl/datasets/carmen.hpp"
 #include "mstsl/io/recording.hpp"
@@ -37,14 +37,16 @@ Result<CarmenLog> read_carmen_log(const std::filesystem::path& file) {
   io::PlayOptions options;
   options.topics.magnetic_field.clear();
   options.topics.imu.clear();
-  options.topics.pose = "/corrected_pose";  // any name: a CARMEN log has no topics, only poses that are wanted or not
-  const auto played = io::play({file}, options, [&](const io::RecordingHeader& header) { log.rig = header.rig; },
-                               [&](const SensorEvent& event) { return take(event, log), true; });
+  options.topics.pose =
+      "/corrected_pose";  // any name: a CARMEN log has no topics, only poses that are wanted or not
+  const auto played = io::play(
+      {file}, options, [&](const io::RecordingHeader& header) { log.rig = header.rig; },
+      [&](const SensorEvent& event) { return take(event, log), true; });
   if (!played) return played.error();
   pair_up(log);
   if (log.scans.size() < 2)
-    return Error(fmt::format("{}: only {} scans with a corrected pose; a *-corrected.log is wanted", file.string(),
-                             log.scans.size()));
+    return Error(fmt::format("{}: only {} scans with a corrected pose; a *-corrected.log is wanted",
+                             file.string(), log.scans.size()));
   return log;
 }
 

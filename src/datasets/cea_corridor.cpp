@@ -1,7 +1,5 @@
 #include "mstsl/datasets/cea_corridor.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -9,6 +7,8 @@
 #include <memory>
 #include <string_view>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "mstsl/datasets/measured_drive.hpp"
 #include "mstsl/datasets/number_columns.hpp"
@@ -33,21 +33,24 @@ Path positions(const std::vector<Fingerprint>& rows) {
 
 std::vector<bool> continued(const Path& path_m, double longest_step_m) {
   std::vector<bool> follows(path_m.size(), false);
-  for (std::size_t i = 1; i < path_m.size(); ++i) follows[i] = (path_m[i] - path_m[i - 1]).norm() <= longest_step_m;
+  for (std::size_t i = 1; i < path_m.size(); ++i)
+    follows[i] = (path_m[i] - path_m[i - 1]).norm() <= longest_step_m;
   return follows;
 }
 
 std::string provenance(const CeaCorridorOptions& options, double survey_m, double query_m) {
-  return fmt::format(
-      "Made from the data set CEA-LIST/large-scale-magnetic-mapping (cea-corridor).\n\n"
-      "REAL: the magnetic field. survey_*.mcap holds the field of floor_a_survey.csv ({:.0f} m), run_*.mcap stretches of "
-      "{:.0f} m of floor_a_query.csv ({:.0f} m), another pass through the same corridors; no run holds a survey reading. "
-      "The paths are the recorded ones, the heading their direction over {} m. Each run starts with a random heading "
-      "and turns in place; while it turns, the field is that of its first row.\n\n"
-      "SIMULATED: walls (tubes {} m wide around both passes), lidar (UTM-30LX), wheel odometry. Added to the field: "
-      "bias of {} uT, noise of {} uT (SD per axis), since the readings hold their own noise.\n",
-      survey_m, options.runs.length_m, query_m, kHeadingWindow_m, options.corridor.width_m,
-      options.robot.magnetometer.bias_sigma_uT, options.robot.magnetometer.noise_uT);
+  return fmt::format(R"(Made from CEA-LIST/large-scale-magnetic-mapping (cea-corridor).
+
+REAL: the magnetic field. survey_00.mcap holds that of floor_a_survey.csv ({:.0f} m), run_*.mcap stretches
+of {:.0f} m of floor_a_query.csv ({:.0f} m), another pass through the same corridors: no run holds a
+reading of the survey. The paths are the recorded ones, the heading their direction over {} m. Each run
+starts with a random heading and turns in place; while it turns, the field is that of its first row.
+
+SIMULATED: walls (tubes {} m wide around both passes), lidar (UTM-30LX), wheel odometry.
+Added to the field: bias of {} uT, noise of {} uT (SD per axis), for its readings hold their own.
+)",
+                     survey_m, options.runs.length_m, query_m, kHeadingWindow_m, options.corridor.width_m,
+                     options.robot.magnetometer.bias_sigma_uT, options.robot.magnetometer.noise_uT);
 }
 
 }  // namespace
@@ -59,8 +62,9 @@ Result<std::vector<Fingerprint>> read_cea_pass(const std::filesystem::path& file
   const std::vector<double>& z_m = (*columns)[2];
   const auto [lowest, highest] = std::minmax_element(z_m.begin(), z_m.end());
   if (*highest - *lowest > kFloorHeight_m)
-    return Error(fmt::format("{}: heights from {:.1f} to {:.1f} m are more than one floor; split the file by z_m",
-                             file.string(), *lowest, *highest));
+    return Error(
+        fmt::format("{}: heights from {:.1f} to {:.1f} m are more than one floor; split the file by z_m",
+                    file.string(), *lowest, *highest));
   std::vector<Fingerprint> rows(z_m.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].position_m = {(*columns)[0][i], (*columns)[1][i]};
@@ -87,14 +91,16 @@ Result<Dataset> cea_corridor(const std::filesystem::path& folder, const CeaCorri
 
   Dataset dataset;
   dataset.map = sim::occupancy_map(*world, options.corridor.resolution_m);
-  dataset.provenance = provenance(options, distances_along(paths_m[0]).back(), distances_along(paths_m[1]).back());
+  dataset.provenance =
+      provenance(options, distances_along(paths_m[0]).back(), distances_along(paths_m[1]).back());
   dataset.surveys.push_back(
       measured_survey(world, *std::move(survey), options.robot, random.fork(kSurveyStream)));
   for (std::size_t i = 0; i < windows->size(); ++i) {
     const auto [first, last] = (*windows)[i];
     const auto begin = query->begin() + static_cast<std::ptrdiff_t>(first);
     std::vector<Fingerprint> rows(begin, begin + static_cast<std::ptrdiff_t>(last - first + 1));
-    dataset.runs.push_back(measured_run(world, std::move(rows), options.robot, random.fork(kRunStream).fork(i)));
+    dataset.runs.push_back(
+        measured_run(world, std::move(rows), options.robot, random.fork(kRunStream).fork(i)));
   }
   return dataset;
 }

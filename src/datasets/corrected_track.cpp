@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <optional>
 
 namespace mstsl::datasets {
-namespace {
 
-/// odom_T_base at a time; nothing outside the readings.
 std::optional<Pose2> odometry_at(std::span<const OdometryReading> odometry, Stamp stamp) {
-  const auto after = std::lower_bound(odometry.begin(), odometry.end(), stamp,
-                                      [](const OdometryReading& reading, Stamp s) { return reading.stamp < s; });
+  const auto after =
+      std::lower_bound(odometry.begin(), odometry.end(), stamp,
+                       [](const OdometryReading& reading, Stamp s) { return reading.stamp < s; });
   if (after == odometry.end()) return std::nullopt;
   if (after->stamp == stamp) return after->odom_T_base;
   if (after == odometry.begin()) return std::nullopt;
@@ -20,9 +18,8 @@ std::optional<Pose2> odometry_at(std::span<const OdometryReading> odometry, Stam
                      (stamp - before->stamp) / (after->stamp - before->stamp));
 }
 
-}  // namespace
-
-CorrectedTrack::CorrectedTrack(std::span<const PoseReading> corrected, std::span<const OdometryReading> odometry) {
+CorrectedTrack::CorrectedTrack(std::span<const PoseReading> corrected,
+                               std::span<const OdometryReading> odometry) {
   assert(!corrected.empty());
   auto reading = odometry.begin();
   for (std::size_t k = 0; k + 1 < corrected.size(); ++k) {

@@ -1,7 +1,5 @@
 #include "mstsl/datasets/dataset_writer.hpp"
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <optional>
 #include <regex>
@@ -10,6 +8,8 @@
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "mstsl/io/atomic_file.hpp"
 #include "mstsl/io/map_server.hpp"
@@ -45,9 +45,10 @@ Result<void> prepare(const fs::path& folder, const Dataset& dataset) {
   fs::create_directories(folder, problem);
   if (problem) return Error(fmt::format("cannot make the folder {}: {}", folder.string(), problem.message()));
   if (const auto name = foreign_log(folder, dataset))
-    return Error(fmt::format("{}: it holds {}, which this conversion would leave beside its own logs; empty it or choose "
-                             "another folder",
-                             folder.string(), *name));
+    return Error(fmt::format(
+        "{}: it holds {}, which this conversion would leave beside its own logs; empty it or choose "
+        "another folder",
+        folder.string(), *name));
   return {};
 }
 
@@ -76,7 +77,8 @@ Result<void> write_survey(const Log& log, const fs::path& folder, std::size_t nu
 Result<void> write_run(const Log& log, const fs::path& folder, std::size_t number) {
   std::vector<PoseReading> truth;
   const auto keep = [&](const PoseReading& pose) { truth.push_back(pose); };
-  if (const Result<void> written = write_log(log, folder / file_name("run", number, "mcap"), "", keep); !written)
+  if (const Result<void> written = write_log(log, folder / file_name("run", number, "mcap"), "", keep);
+      !written)
     return written;
   return io::write_truth(truth, folder / file_name("truth", number, "csv"));
 }
@@ -87,7 +89,8 @@ Result<void> write_dataset(const Dataset& dataset, const fs::path& folder,
                            const std::function<bool(double)>& progress) {
   if (const Result<void> ready = prepare(folder, dataset); !ready) return ready;
   if (const Result<void> map = io::write_map(dataset.map, folder / "map.yaml"); !map) return map;
-  if (const Result<void> readme = io::write_file(folder / "README.txt", dataset.provenance); !readme) return readme;
+  if (const Result<void> readme = io::write_file(folder / "README.txt", dataset.provenance); !readme)
+    return readme;
   const std::size_t logs = dataset.surveys.size() + dataset.runs.size();
   for (std::size_t i = 0; i < logs; ++i) {
     if (progress && !progress(static_cast<double>(i) / static_cast<double>(logs)))

@@ -1,13 +1,13 @@
 #include "mstsl/datasets/floor_plan.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "mstsl/io/file_bytes.hpp"
 
@@ -19,7 +19,8 @@ using Json = nlohmann::json;
 constexpr std::size_t kLimitBytes = std::size_t{1} << 26;
 
 Result<Polygon> polygon(const Json& corners, const std::string& place) {
-  if (!corners.is_array() || corners.size() < 3) return Error(place + " is no polygon of at least three corners");
+  if (!corners.is_array() || corners.size() < 3)
+    return Error(place + " is no polygon of at least three corners");
   Polygon result;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Json& corner = corners[i];

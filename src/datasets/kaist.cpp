@@ -1,8 +1,5 @@
 #include "mstsl/datasets/kaist.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +9,9 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/datasets/floor_plan.hpp"
@@ -95,35 +95,42 @@ std::vector<Fingerprint> stretch(const TurnedWalk& walk, const Window& window, b
   return rows;
 }
 
+std::string described(const Eigen::Vector3d& rms_uT) {
+  return fmt::format("{:.1f}, {:.1f}, {:.1f} uT", rms_uT.x(), rms_uT.y(), rms_uT.z());
+}
+
 std::string described(const WalkHalf& half) {
   const Eigen::AngleAxisd turn(half.survey_R_phone);
   return fmt::format(
-      "a turn of {:.1f} deg about ({:.2f}, {:.2f}, {:.2f}), rms residual {:.1f}, {:.1f}, {:.1f} uT (x, y, z) here and "
-      "{:.1f}, {:.1f}, {:.1f} uT with this half's own best rotation",
-      degrees(turn.angle()), turn.axis().x(), turn.axis().y(), turn.axis().z(), half.residual_uT.x(),
-      half.residual_uT.y(), half.residual_uT.z(), half.fit.residual_rms.x(), half.fit.residual_rms.y(),
-      half.fit.residual_rms.z());
+      "a turn of {:.1f} deg about ({:.2f}, {:.2f}, {:.2f}); what is left (rms of x, y, z): {}\n"
+      "               (with a rotation fitted to this half itself: {})",
+      degrees(turn.angle()), turn.axis().x(), turn.axis().y(), turn.axis().z(), described(half.residual_uT),
+      described(half.fit.residual_rms));
 }
 
 std::string provenance(const KaistOptions& options, const std::array<WalkHalf, 2>& halves, std::size_t points,
                        std::size_t lanes) {
-  return fmt::format(
-      "Made from canlang/sjlee-s-Robust-Magnetic-Field-Positionig (KAIST N1, 7th floor; MIT).\n\n"
-      "REAL: the floor plan (walls of N1-7F.json) and the magnetic field. survey_*.mcap hold the {} points of batch.csv "
-      "(a lattice of 0.5 m) as {} lanes, with readings only at the surveyed points. run_*.mcap are stretches of {:.0f} m "
-      "of the independent walk of sjlee_testdata_N1_20180723.csv, taken either way, with its raw readings; each "
-      "starts with a random heading and turns in place, and while it turns, the field is that of its first row.\n\n"
-      "FITTED: how the walker held the phone is not documented. base_T_magnetometer of a run is a rotation fitted to "
-      "the survey on the half of the walk that the run is not from:\n"
-      "  first half:  {}\n"
-      "  second half: {}\n"
-      "What is left is the survey's and the phone's own error (bias included: none was fitted), the lattice's coarseness "
-      "and the evenness of pace that the walk's positions assume. The survey's axes are taken as the map's; a turn "
-      "between them would be the same for survey and runs.\n\n"
-      "SIMULATED: lidar (UTM-30LX) among the plan's walls, wheel odometry. Added to the field: bias of {} uT, noise of "
-      "{} uT (SD per axis).\n",
-      points, lanes, options.runs.length_m, described(halves[0]), described(halves[1]),
-      options.robot.magnetometer.bias_sigma_uT, options.robot.magnetometer.noise_uT);
+  return fmt::format(R"(Made from canlang/sjlee-s-Robust-Magnetic-Field-Positionig (KAIST N1, 7th floor; MIT).
+
+REAL: the floor plan (walls of N1-7F.json) and the magnetic field. survey_*.mcap hold the {} points of
+batch.csv (a lattice of 0.5 m) as {} lanes, with readings only at the surveyed points. run_*.mcap are
+stretches of {:.0f} m of the independent walk of sjlee_testdata_N1_20180723.csv, taken either way, with
+its raw readings. Each starts with a random heading and turns in place; while it turns, the field is that
+of its first row.
+
+FITTED: how the walker held the phone is documented nowhere. base_T_magnetometer of a run is a rotation
+fitted to the survey on the half of the walk that the run is not from:
+  first half:  {}
+  second half: {}
+What is left is the survey's and the phone's own error (bias included: none was fitted), the lattice's
+coarseness, and the even pace that the walk's positions assume. The survey's axes are taken as the map's;
+a turn between them would be the same for survey and runs.
+
+SIMULATED: lidar (UTM-30LX) among the plan's walls, wheel odometry.
+Added to the field: bias of {} uT, noise of {} uT (SD per axis).
+)",
+                     points, lanes, options.runs.length_m, described(halves[0]), described(halves[1]),
+                     options.robot.magnetometer.bias_sigma_uT, options.robot.magnetometer.noise_uT);
 }
 
 }  // namespace
@@ -136,7 +143,8 @@ Result<std::vector<Fingerprint>> read_kaist_walk(const std::filesystem::path& fi
   return read_points(file, {"location_x", "location_y", "magnet_x", "magnet_y", "magnet_z"});
 }
 
-Result<Dataset> kaist_n1_7f(const std::filesystem::path& folder, const KaistOptions& options, const Random& random) {
+Result<Dataset> kaist_n1_7f(const std::filesystem::path& folder, const KaistOptions& options,
+                            const Random& random) {
   const Result<FloorPlan> floor = read_floor_plan(folder / "N1-7F.json");
   if (!floor) return floor.error();
   const auto survey = read_kaist_survey(folder / "batch.csv");
@@ -157,7 +165,8 @@ Result<Dataset> kaist_n1_7f(const std::filesystem::path& folder, const KaistOpti
   dataset.map = sim::occupancy_map(*world, options.map_resolution_m);
   dataset.provenance = provenance(options, *halves, survey->size(), lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i)
-    dataset.surveys.push_back(point_survey(world, lanes[i], options.robot, random.fork(kSurveyStream).fork(i)));
+    dataset.surveys.push_back(
+        point_survey(world, lanes[i], options.robot, random.fork(kSurveyStream).fork(i)));
   Random ways = random.fork(kWayStream);
   for (std::size_t i = 0; i < windows->size(); ++i) {
     const Window& window = (*windows)[i];

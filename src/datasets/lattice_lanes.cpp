@@ -11,7 +11,9 @@ namespace {
 void add_lanes(std::vector<Fingerprint> points, int along, const LatticeOptions& options,
                std::vector<std::vector<Fingerprint>>& lanes) {
   const int across = 1 - along;
-  const auto line_of = [&](const Fingerprint& p) { return std::llround(p.position_m[across] / options.same_line_m); };
+  const auto line_of = [&](const Fingerprint& p) {
+    return std::llround(p.position_m[across] / options.same_line_m);
+  };
   std::stable_sort(points.begin(), points.end(), [&](const Fingerprint& a, const Fingerprint& b) {
     return std::pair(line_of(a), a.position_m[along]) < std::pair(line_of(b), b.position_m[along]);
   });
@@ -31,7 +33,8 @@ void add_lanes(std::vector<Fingerprint> points, int along, const LatticeOptions&
 
 }  // namespace
 
-std::vector<std::vector<Fingerprint>> lattice_lanes(std::span<const Fingerprint> points, const LatticeOptions& options) {
+std::vector<std::vector<Fingerprint>> lattice_lanes(std::span<const Fingerprint> points,
+                                                    const LatticeOptions& options) {
   std::vector<std::vector<Fingerprint>> lanes;
   for (const int along : {0, 1}) add_lanes({points.begin(), points.end()}, along, options, lanes);
   return lanes;

@@ -57,8 +57,8 @@ sim::Trajectory drive_along(const std::vector<Fingerprint>& rows, const sim::Mot
   return sim::along_points(points_m, motion, kHeadingWindow_m, kStart);
 }
 
-Log log_of(std::shared_ptr<const sim::World> world, std::vector<Fingerprint> rows, const sim::RobotOptions& robot,
-           sim::Trajectory trajectory, const Random& random) {
+Log log_of(std::shared_ptr<const sim::World> world, std::vector<Fingerprint> rows,
+           const sim::RobotOptions& robot, sim::Trajectory trajectory, const Random& random) {
   const auto field = std::make_shared<const PathField>(std::move(rows));
   const auto source = [field](const Pose2&, const Eigen::Vector3d& position_m) {
     return field->field_uT(position_m.head<2>());
@@ -75,7 +75,8 @@ sim::Trajectory with_turn_at_start(const sim::Trajectory& drive, double start_ya
                                    const sim::MotionOptions& motion) {
   assert(!drive.poses.empty());
   const Pose2 first = drive.poses.front();
-  const Turn turn(angle_between(start_yaw_rad, first.yaw), motion.turn_rate_rad_s, motion.turn_acceleration_rad_s2);
+  const Turn turn(angle_between(start_yaw_rad, first.yaw), motion.turn_rate_rad_s,
+                  motion.turn_acceleration_rad_s2);
   const double before_s = 2.0 * motion.standstill_s + turn.duration_s();
   const auto steps = static_cast<std::size_t>(std::ceil(before_s / drive.step_s));
   sim::Trajectory whole{drive.start, drive.step_s, {}};
@@ -87,22 +88,23 @@ sim::Trajectory with_turn_at_start(const sim::Trajectory& drive, double start_ya
   return whole;
 }
 
-Log measured_survey(std::shared_ptr<const sim::World> world, std::vector<Fingerprint> rows, sim::RobotOptions robot,
-                    const Random& random) {
+Log measured_survey(std::shared_ptr<const sim::World> world, std::vector<Fingerprint> rows,
+                    sim::RobotOptions robot, const Random& random) {
   robot.lidar.rate_hz = 0.0;
   sim::Trajectory trajectory = drive_along(rows, robot.motion);
   return log_of(std::move(world), std::move(rows), robot, std::move(trajectory), random);
 }
 
-Log point_survey(std::shared_ptr<const sim::World> world, std::vector<Fingerprint> points, sim::RobotOptions robot,
-                 const Random& random) {
+Log point_survey(std::shared_ptr<const sim::World> world, std::vector<Fingerprint> points,
+                 sim::RobotOptions robot, const Random& random) {
   robot.lidar.rate_hz = 0.0;
   const sim::Trajectory trajectory = drive_along(points, robot.motion);
   const double reach_m = robot.motion.speed_m_s / robot.magnetometer.rate_hz;
   const auto at_a_point = [points, trajectory, reach_m](Stamp stamp) {
     const Eigen::Vector2d place_m = trajectory.at(stamp - trajectory.start).position();
-    return std::any_of(points.begin(), points.end(),
-                       [&](const Fingerprint& point) { return (point.position_m - place_m).norm() <= reach_m; });
+    return std::any_of(points.begin(), points.end(), [&](const Fingerprint& point) {
+      return (point.position_m - place_m).norm() <= reach_m;
+    });
   };
   const Log everywhere = log_of(std::move(world), std::move(points), robot, trajectory, random);
   return {robot.rig, [everywhere, at_a_point](const sim::DriveSinks& sinks) {
@@ -114,10 +116,11 @@ Log point_survey(std::shared_ptr<const sim::World> world, std::vector<Fingerprin
           }};
 }
 
-Log measured_run(std::shared_ptr<const sim::World> world, std::vector<Fingerprint> rows, sim::RobotOptions robot,
-                 const Random& random) {
+Log measured_run(std::shared_ptr<const sim::World> world, std::vector<Fingerprint> rows,
+                 sim::RobotOptions robot, const Random& random) {
   const double start_yaw_rad = random.fork(kHeadingStream).uniform(-kPi, kPi);
-  sim::Trajectory trajectory = with_turn_at_start(drive_along(rows, robot.motion), start_yaw_rad, robot.motion);
+  sim::Trajectory trajectory =
+      with_turn_at_start(drive_along(rows, robot.motion), start_yaw_rad, robot.motion);
   return log_of(std::move(world), std::move(rows), robot, std::move(trajectory), random);
 }
 

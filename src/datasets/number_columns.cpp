@@ -1,8 +1,5 @@
 #include "mstsl/datasets/number_columns.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +8,9 @@
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mstsl/io/file_bytes.hpp"
 
@@ -38,7 +38,8 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 std::optional<double> finite_number(std::string_view text) {
   double number = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (problem != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+  if (problem != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
+    return std::nullopt;
   return number;
 }
 
@@ -70,7 +71,8 @@ Result<std::vector<std::size_t>> places_of(std::span<const std::string_view> nam
   for (const std::string_view name : names) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end())
-      return Error(fmt::format("no column '{}'; those in its first line are: {}", name, fmt::join(header, ", ")));
+      return Error(
+          fmt::format("no column '{}'; those in its first line are: {}", name, fmt::join(header, ", ")));
     places.push_back(static_cast<std::size_t>(found - header.begin()));
   }
   return places;
@@ -98,7 +100,8 @@ Result<Columns> parse(std::string_view text, std::span<const std::string_view> n
       const std::string_view field = fields[(*places)[i]];
       const auto number = finite_number(field);
       if (!number)
-        return Error(fmt::format("line {}: '{}' in column '{}' is no finite number", lines.number(), field, names[i]));
+        return Error(
+            fmt::format("line {}: '{}' in column '{}' is no finite number", lines.number(), field, names[i]));
       columns[i].push_back(*number);
     }
   }
@@ -108,7 +111,8 @@ Result<Columns> parse(std::string_view text, std::span<const std::string_view> n
 
 }  // namespace
 
-Result<Columns> read_number_columns(const std::filesystem::path& file, std::span<const std::string_view> names) {
+Result<Columns> read_number_columns(const std::filesystem::path& file,
+                                    std::span<const std::string_view> names) {
   const Result<std::string> text = io::read_file(file, kLimitBytes);
   if (!text) return text.error();
   Result<Columns> columns = parse(*text, names);

@@ -35,9 +35,10 @@ Revisits find_revisits(std::span<const PoseReading> corrected, const OccupancyGr
   revisits.later_m = along_m.back() - revisits.first_m;
 
   constexpr double kNear_m = 1.0;
-  const sim::SegmentIndex first_way(sim::polyline({path_m.begin(), path_m.begin() + static_cast<std::ptrdiff_t>(split)},
-                                                  false));
-  const DistanceField clearance(first_map, std::max(2.0 * options.clearance_m, first_map.geometry().resolution_m));
+  const sim::SegmentIndex first_way(
+      sim::polyline({path_m.begin(), path_m.begin() + static_cast<std::ptrdiff_t>(split)}, false));
+  const DistanceField clearance(first_map,
+                                std::max(2.0 * options.clearance_m, first_map.geometry().resolution_m));
   std::size_t near = 0;
   bool before = false;
   revisits.follows.assign(path_m.size(), false);

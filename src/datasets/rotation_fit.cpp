@@ -1,9 +1,10 @@
 #include "mstsl/datasets/rotation_fit.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cassert>
 #include <cstddef>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
 
 namespace mstsl::datasets {
 
@@ -23,10 +24,12 @@ Result<RotationFit> fit_rotation(std::span<const Eigen::Vector3d> from, std::spa
   // Two independent directions fix a rotation; below this share the second one is rounding, not direction.
   constexpr double kLeastShare = 1e-9;
   if (!(svd.singularValues()[1] > kLeastShare * svd.singularValues()[0]))
-    return Error("the vectors to fit a rotation to all lie along one line; a turn about it cannot be told from them");
+    return Error(
+        "the vectors to fit a rotation to all lie along one line; a turn about it cannot be told from them");
   const double handedness = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0 ? 1.0 : -1.0;
   RotationFit fit;
-  fit.to_R_from = svd.matrixU() * Eigen::Vector3d(1.0, 1.0, handedness).asDiagonal() * svd.matrixV().transpose();
+  fit.to_R_from =
+      svd.matrixU() * Eigen::Vector3d(1.0, 1.0, handedness).asDiagonal() * svd.matrixV().transpose();
   fit.residual_rms = residual_rms(fit.to_R_from, from, to);
   return fit;
 }

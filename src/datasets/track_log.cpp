@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -28,6 +29,22 @@ std::vector<Reading> within(std::span<const Reading> readings, Stamp from, Stamp
   std::copy_if(readings.begin(), readings.end(), std::back_inserter(chosen),
                [&](const Reading& reading) { return reading.stamp >= from && reading.stamp <= to; });
   return chosen;
+}
+
+/// The recorded readings, and one between them at the time of each scan, as a driver of the usual 50 Hz would
+/// give.
+std::vector<OdometryReading> with_one_at_each(std::span<const LaserScan> scans,
+                                              std::span<const OdometryReading> odometry, Stamp from,
+                                              Stamp to) {
+  std::vector<OdometryReading> readings = within(odometry, from, to);
+  for (const LaserScan& scan : within(scans, from, to))
+    if (const std::optional<Pose2> pose = odometry_at(odometry, scan.stamp))
+      readings.push_back({scan.stamp, *pose});
+  const auto earlier = [](const OdometryReading& a, const OdometryReading& b) { return a.stamp < b.stamp; };
+  std::stable_sort(readings.begin(), readings.end(), earlier);
+  const auto same = [](const OdometryReading& a, const OdometryReading& b) { return a.stamp == b.stamp; };
+  readings.erase(std::unique(readings.begin(), readings.end(), same), readings.end());
+  return readings;
 }
 
 /// How fast the wheels turn, by the way from one pose to the next, for the field of their motors.
@@ -76,12 +93,12 @@ void play(const Parts& parts, const sim::DriveSinks& sinks) {
 
 }  // namespace
 
-Log track_log(const TrackPart& part, std::span<const OdometryReading> odometry, std::span<const LaserScan> scans,
-              std::shared_ptr<const sim::World> world, const Rig& rig, const sim::MagnetometerOptions& magnetometer,
-              const Random& random) {
-  const auto parts = std::make_shared<const Parts>(Parts{part, within(odometry, part.from, part.to),
-                                                         within(scans, part.from, part.to), std::move(world), rig,
-                                                         magnetometer, random});
+Log track_log(const TrackPart& part, std::span<const OdometryReading> odometry,
+              std::span<const LaserScan> scans, std::shared_ptr<const sim::World> world, const Rig& rig,
+              const sim::MagnetometerOptions& magnetometer, const Random& random) {
+  const auto parts = std::make_shared<const Parts>(
+      Parts{part, with_one_at_each(scans, odometry, part.from, part.to), within(scans, part.from, part.to),
+            std::move(world), rig, magnetometer, random});
   return {rig, [parts](const sim::DriveSinks& sinks) { play(*parts, sinks); }};
 }
 

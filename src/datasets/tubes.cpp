@@ -1,12 +1,12 @@
 #include "mstsl/datasets/tubes.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "mstsl/grid/outline.hpp"
 #include "mstsl/sim/segment.hpp"
@@ -39,7 +39,8 @@ void clear_around(const sim::Segment& step, double radius_m, OccupancyGrid& grid
         grid[{column, row}] = CellState::kFree;
 }
 
-/// Douglas & Peucker (1973): the corners of points first .. last that are needed to stay within the tolerance.
+/// Douglas & Peucker (1973): the corners of points first .. last that are needed to stay within the
+/// tolerance.
 void keep_corners(const Path& path_m, std::size_t first, std::size_t last, double tolerance_m, Path& kept_m) {
   const sim::Segment chord{path_m[first], path_m[last]};
   std::size_t farthest = first;
@@ -91,8 +92,8 @@ Result<OccupancyGrid> tubes_around(std::span<const Path> paths_m, const TubeOpti
   const double margin_m = radius_m + 2.0 * options.resolution_m;  // so that a wall closes every tube
   const Eigen::Vector2d size_m = bounds.sizes().array() + 2.0 * margin_m;
   if (size_m.maxCoeff() > kLargestBuilding_m)
-    return Error(fmt::format("the paths spread over {:.0f} x {:.0f} m; no building is larger than {:.0f} m", size_m.x(),
-                             size_m.y(), kLargestBuilding_m));
+    return Error(fmt::format("the paths spread over {:.0f} x {:.0f} m; no building is larger than {:.0f} m",
+                             size_m.x(), size_m.y(), kLargestBuilding_m));
   GridGeometry geometry;
   geometry.resolution_m = options.resolution_m;
   geometry.columns = static_cast<int>(std::ceil(size_m.x() / options.resolution_m));

@@ -27,20 +27,23 @@ double squared_distance(const Fingerprint& a, const Fingerprint& b) {
 }
 
 std::size_t nearest(std::span<const Fingerprint> points, const Fingerprint& to) {
-  return static_cast<std::size_t>(
-      std::min_element(points.begin(), points.end(),
-                       [&](const auto& a, const auto& b) { return squared_distance(a, to) < squared_distance(b, to); }) -
-      points.begin());
+  return static_cast<std::size_t>(std::min_element(points.begin(), points.end(),
+                                                   [&](const auto& a, const auto& b) {
+                                                     return squared_distance(a, to) < squared_distance(b, to);
+                                                   }) -
+                                  points.begin());
 }
 
 /// The surveyed points that were walked over, in the order of the walk.
-std::vector<Fingerprint> points_beside(std::span<const Fingerprint> walk, std::span<const Fingerprint> survey) {
+std::vector<Fingerprint> points_beside(std::span<const Fingerprint> walk,
+                                       std::span<const Fingerprint> survey) {
   std::vector<std::pair<std::size_t, Fingerprint>> passed;
   for (const Fingerprint& point : survey) {
     const std::size_t row = nearest(walk, point);
     if (squared_distance(walk[row], point) <= kBeside_m * kBeside_m) passed.emplace_back(row, point);
   }
-  std::stable_sort(passed.begin(), passed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(passed.begin(), passed.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Fingerprint> points;
   for (auto& [row, point] : passed) points.push_back(std::move(point));
   return points;
@@ -71,7 +74,8 @@ std::size_t row_half_way(std::span<const Fingerprint> walk) {
 
 Result<std::array<WalkHalf, 2>> calibrated_halves(std::span<const Fingerprint> walk,
                                                   std::span<const Fingerprint> survey) {
-  if (walk.empty() || survey.empty()) return Error("a walk and a survey are needed, and one of them is empty");
+  if (walk.empty() || survey.empty())
+    return Error("a walk and a survey are needed, and one of them is empty");
   std::vector<Fingerprint> beside = points_beside(walk, survey);
   if (beside.empty()) return Error("the walk passes no surveyed point; are both in the same frame?");
   const PathField surveyed(std::move(beside));

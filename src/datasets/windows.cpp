@@ -1,10 +1,10 @@
 #include "mstsl/datasets/windows.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace mstsl::datasets {
 
@@ -15,8 +15,8 @@ std::vector<double> distances_along(std::span<const Eigen::Vector2d> path_m) {
   return distances_m;
 }
 
-std::vector<Window> windows_of_length(std::span<const Eigen::Vector2d> path_m, const std::vector<bool>& follows,
-                                      double length_m) {
+std::vector<Window> windows_of_length(std::span<const Eigen::Vector2d> path_m,
+                                      const std::vector<bool>& follows, double length_m) {
   assert(follows.size() == path_m.size());
   const std::vector<double> along_m = distances_along(path_m);
   std::vector<Window> windows;
@@ -34,10 +34,12 @@ std::vector<Window> windows_of_length(std::span<const Eigen::Vector2d> path_m, c
 
 Result<std::vector<Window>> draw_windows(std::vector<Window> windows, std::size_t count, Random random) {
   if (windows.size() < count)
-    return Error(fmt::format("only {} stretches are long enough to be a run, fewer than the {} asked for; ask for fewer "
-                             "or shorter runs",
-                             windows.size(), count));
-  for (std::size_t i = 0; i < count; ++i) std::swap(windows[i], windows[i + random.index(windows.size() - i)]);
+    return Error(fmt::format(
+        "only {} stretches are long enough to be a run, fewer than the {} asked for; ask for fewer "
+        "or shorter runs",
+        windows.size(), count));
+  for (std::size_t i = 0; i < count; ++i)
+    std::swap(windows[i], windows[i + random.index(windows.size() - i)]);
   windows.resize(count);
   return windows;
 }

@@ -1,7 +1,5 @@
 #include "mstsl/datasets/carmen.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -10,7 +8,10 @@
 #include <variant>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/datasets/corrected_track.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::datasets {
@@ -62,7 +63,8 @@ TEST(Revisits, EndWhereTheMapDoes) {
 TEST(Revisits, KeepAwayFromMappedWalls) {
   const auto poses = there_and_back(30);
   OccupancyGrid map = free_hall(-5.0, 40.0);
-  for (int row = 0; row < 60; ++row) map[{map.geometry().cell_at({15.0, 0.0}).column, row}] = CellState::kOccupied;
+  for (int row = 0; row < 60; ++row)
+    map[{map.geometry().cell_at({15.0, 0.0}).column, row}] = CellState::kOccupied;
   CarmenOptions options;
   options.mapped_share = 0.5;
   EXPECT_EQ(find_revisits(poses, map, options).revisiting, 29U);
@@ -119,6 +121,25 @@ TEST_F(RealCarmen, RunsHoldRecordedScansOfTheLaterPartOnly) {
   }
 }
 
+TEST_F(RealCarmen, RunsHaveOdometryAtEveryScanAndNothingOutOfOrder) {
+  MSTSL_REQUIRE_DATA("carmen/intel-corrected.log.gz");
+  const Dataset dataset =
+      test::must(carmen(test::data_file("carmen/intel-corrected.log.gz"), options(), Random(1)));
+  for (const Log& run : dataset.runs) {
+    Stamp last{0}, last_odometry{0};
+    run.play({[&](const SensorEvent& event) {
+                EXPECT_GE(stamp_of(event), last);
+                last = stamp_of(event);
+                if (std::holds_alternative<OdometryReading>(event)) {
+                  EXPECT_GT(last, last_odometry);
+                  last_odometry = last;
+                }
+                EXPECT_TRUE(!std::holds_alternative<LaserScan>(event) || last == last_odometry);
+              },
+              {}});
+  }
+}
+
 TEST_F(RealCarmen, RunsKeepToFreeGroundAndTheirLength) {
   MSTSL_REQUIRE_DATA("carmen/intel-corrected.log.gz");
   const Dataset dataset =
@@ -158,7 +179,8 @@ TEST_F(RealCarmen, FieldIsTheWorldsAtTheTruePlaceWhereverTheRobotFaces) {
     Eigen::Vector3d first_uT = Eigen::Vector3d::Constant(std::nan(""));
     dataset.runs.front().play({[&](const SensorEvent& event) {
                                  const auto* field = std::get_if<FieldReading>(&event);
-                                 if (field != nullptr && std::isnan(first_uT.x())) first_uT = field->sensor_field_uT;
+                                 if (field != nullptr && std::isnan(first_uT.x()))
+                                   first_uT = field->sensor_field_uT;
                                },
                                {}});
     return first_uT;

@@ -1,9 +1,9 @@
 #include "mstsl/datasets/corrected_track.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/core/random.hpp"

@@ -1,7 +1,5 @@
 #include "mstsl/datasets/dataset_writer.hpp"
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -9,9 +7,12 @@
 #include <variant>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/io/map_server.hpp"
 #include "mstsl/io/recording.hpp"
 #include "mstsl/io/truth.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::datasets {
@@ -44,7 +45,8 @@ std::vector<SensorEvent> played(const std::filesystem::path& file, const std::st
   io::PlayOptions options;
   options.topics = {.scan = "", .odometry = "/odom", .imu = "", .pose = pose_topic};
   std::vector<SensorEvent> events;
-  test::must(io::play({file}, options, {}, [&](const SensorEvent& event) { return events.push_back(event), true; }));
+  test::must(
+      io::play({file}, options, {}, [&](const SensorEvent& event) { return events.push_back(event), true; }));
   return events;
 }
 
@@ -65,8 +67,9 @@ TEST(DatasetWriter, WritesMapLogsTruthAndWhatIsReal) {
   const test::TemporaryFolder folder;
   const auto out = folder.path() / "a" / "b";
   test::must(write_dataset(small_dataset(1, 2), out));
-  EXPECT_EQ(names_in(out), (std::set<std::string>{"README.txt", "map.pgm", "map.yaml", "run_00.mcap", "run_01.mcap",
-                                                  "survey_00.mcap", "truth_00.csv", "truth_01.csv"}));
+  EXPECT_EQ(names_in(out),
+            (std::set<std::string>{"README.txt", "map.pgm", "map.yaml", "run_00.mcap", "run_01.mcap",
+                                   "survey_00.mcap", "truth_00.csv", "truth_01.csv"}));
   EXPECT_EQ(test::must(io::read_map(out / "map.yaml")).geometry().columns, 20);
 }
 
@@ -78,7 +81,8 @@ TEST(DatasetWriter, PutsTheTruthIntoSurveysAndNeverIntoRuns) {
   EXPECT_EQ(count_of<FieldReading>(survey), 10U);
   io::PlayOptions with_pose;
   with_pose.topics.pose = "/ground_truth";
-  EXPECT_FALSE(io::play({folder.path() / "run_00.mcap"}, with_pose, {}, [](const SensorEvent&) { return true; }).ok());
+  EXPECT_FALSE(
+      io::play({folder.path() / "run_00.mcap"}, with_pose, {}, [](const SensorEvent&) { return true; }).ok());
   const auto run = played(folder.path() / "run_00.mcap", "");
   EXPECT_EQ(count_of<OdometryReading>(run), 10U);
   const auto truth = test::must(io::read_truth(folder.path() / "truth_00.csv"));
@@ -94,11 +98,12 @@ TEST(DatasetWriter, KeepsTheFieldAndItsMounting) {
   io::PlayOptions options;
   options.topics.scan.clear();
   options.topics.imu.clear();
-  test::must(io::play({folder.path() / "run_00.mcap"}, options, [&](const io::RecordingHeader& h) { rig = h.rig; },
-                      [&](const SensorEvent& event) {
-                        if (const auto* field = std::get_if<FieldReading>(&event)) readings.push_back(*field);
-                        return true;
-                      }));
+  test::must(io::play(
+      {folder.path() / "run_00.mcap"}, options, [&](const io::RecordingHeader& h) { rig = h.rig; },
+      [&](const SensorEvent& event) {
+        if (const auto* field = std::get_if<FieldReading>(&event)) readings.push_back(*field);
+        return true;
+      }));
   EXPECT_NEAR(rig.base_T_magnetometer.translation().z(), 0.7, 1e-9);
   ASSERT_EQ(readings.size(), 10U);
   EXPECT_NEAR(readings[3].sensor_field_uT.x(), 23.0, 1e-9);
@@ -117,7 +122,8 @@ TEST(DatasetWriter, ReplacesItsOwnLogsButLeavesNoOthersBeside) {
 
 TEST(DatasetWriter, StopsWhenAsked) {
   const test::TemporaryFolder folder;
-  const auto stopped = write_dataset(small_dataset(1, 3), folder.path(), [](double share) { return share < 0.5; });
+  const auto stopped =
+      write_dataset(small_dataset(1, 3), folder.path(), [](double share) { return share < 0.5; });
   ASSERT_FALSE(stopped.ok());
   EXPECT_NE(stopped.error().message().find("2 of 4"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "run_01.mcap"));

@@ -1,10 +1,10 @@
 #include "mstsl/datasets/floor_plan.hpp"
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "test_support.hpp"
 
@@ -22,7 +22,8 @@ class FloorPlanFile : public testing::Test {
 };
 
 TEST_F(FloorPlanFile, HoldsAnOuterPolygonAndBlocks) {
-  const FloorPlan plan = test::must(read(R"({"in": [[0,0],[9,0],[9,5],[0,5]], "out": [[[2,1],[3,1],[3,2.5]]]})"));
+  const FloorPlan plan =
+      test::must(read(R"({"in": [[0,0],[9,0],[9,5],[0,5]], "out": [[[2,1],[3,1],[3,2.5]]]})"));
   EXPECT_EQ(plan.outer.size(), 4U);
   ASSERT_EQ(plan.blocks.size(), 1U);
   EXPECT_EQ(plan.blocks[0][2], Eigen::Vector2d(3.0, 2.5));
@@ -37,9 +38,10 @@ TEST_F(FloorPlanFile, SaysWhereItIsWrong) {
 }
 
 TEST_F(FloorPlanFile, IsRefusedWithoutACrash) {
-  for (const std::string text : {"", "{", "[]", "null", R"({"in": 3, "out": []})", R"({"in": [[0,0],[1,0],[1,1]]})",
-                                 R"({"in": [[0,0],[1,0],[1,1]], "out": [3]})", R"({"in": [[0,0],[1],[1,1]], "out": []})",
-                                 R"({"in": [[0,0],[1e999,0],[1,1]], "out": []})", "\xff\xfe"}) {
+  for (const std::string text :
+       {"", "{", "[]", "null", R"({"in": 3, "out": []})", R"({"in": [[0,0],[1,0],[1,1]]})",
+        R"({"in": [[0,0],[1,0],[1,1]], "out": [3]})", R"({"in": [[0,0],[1],[1,1]], "out": []})",
+        R"({"in": [[0,0],[1e999,0],[1,1]], "out": []})", "\xff\xfe"}) {
     const auto plan = read(text);
     ASSERT_FALSE(plan.ok()) << text;
     EXPECT_NE(plan.error().message().find("plan.json"), std::string::npos);

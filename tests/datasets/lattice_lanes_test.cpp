@@ -1,9 +1,9 @@
 #include "mstsl/datasets/lattice_lanes.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/random.hpp"
 

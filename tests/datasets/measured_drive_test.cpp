@@ -1,17 +1,18 @@
 #include "mstsl/datasets/measured_drive.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <variant>
 #include <vector>
 
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/core/random.hpp"
 #include "mstsl/datasets/tubes.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::datasets {
@@ -114,7 +115,8 @@ TEST_F(MeasuredDrive, SeesItsCorridorsWalls) {
   float nearest_m = 100.0F;
   for (const float range_m : scans.front().ranges_m)
     if (range_m >= scans.front().range_min_m) nearest_m = std::min(nearest_m, range_m);
-  EXPECT_NEAR(nearest_m, 1.1F, 0.25F);  // the laser is 0.2 m from the robot's middle, the walls 1.1 m from the path
+  EXPECT_NEAR(nearest_m, 1.1F,
+              0.25F);  // the laser is 0.2 m from the robot's middle, the walls 1.1 m from the path
 }
 
 TEST_F(MeasuredDrive, SaysTheSameEachTimeItIsPlayed) {

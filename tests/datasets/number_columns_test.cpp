@@ -1,13 +1,13 @@
 #include "mstsl/datasets/number_columns.hpp"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "test_support.hpp"
 

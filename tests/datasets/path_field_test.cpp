@@ -1,8 +1,8 @@
 #include "mstsl/datasets/path_field.hpp"
 
-#include <gtest/gtest.h>
-
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace mstsl::datasets {
 namespace {

@@ -1,6 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,9 +7,13 @@
 #include <variant>
 #include <vector>
 
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/datasets/cea_corridor.hpp"
 #include "mstsl/datasets/kaist.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::datasets {
@@ -33,7 +34,8 @@ Start start_of(const Log& log) {
             [&](const PoseReading& pose) { truth.push_back(pose); }});
   const Eigen::Matrix3d map_R_base =
       Eigen::AngleAxisd(truth.front().map_T_base.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return {truth.front(), map_R_base * log.rig.base_T_magnetometer.linear() * readings.front().sensor_field_uT};
+  return {truth.front(),
+          map_R_base * log.rig.base_T_magnetometer.linear() * readings.front().sensor_field_uT};
 }
 
 /// Without a lidar, which these tests do not look at, logs play a hundred times faster.
@@ -103,7 +105,8 @@ struct AskewWalk {
   static Fingerprint at(double x_m, double y_m) {
     Fingerprint point;
     point.position_m = {x_m, y_m};
-    point.field_uT = {20.0 * std::sin(0.3 * x_m), 15.0 * std::cos(0.2 * x_m), -40.0 + 5.0 * std::sin(0.5 * x_m)};
+    point.field_uT = {20.0 * std::sin(0.3 * x_m), 15.0 * std::cos(0.2 * x_m),
+                      -40.0 + 5.0 * std::sin(0.5 * x_m)};
     return point;
   }
 };
@@ -112,7 +115,8 @@ TEST(WalkCalibration, FindsHowThePhoneWasHeldFromEitherHalf) {
   const AskewWalk known;
   for (const WalkHalf& half : test::must(calibrated_halves(known.walk, known.survey))) {
     EXPECT_LT((half.survey_R_phone - known.survey_R_phone).norm(), 0.01);
-    EXPECT_LT(half.residual_uT.maxCoeff(), 0.2);  // the lattice is linear between its points, the field is not
+    EXPECT_LT(half.residual_uT.maxCoeff(),
+              0.2);  // the lattice is linear between its points, the field is not
   }
 }
 
@@ -142,7 +146,8 @@ TEST(KaistN17f, RunsHoldThePhonesOwnReadingsWhileTheyFaceAlongTheMap) {
     const Start start = start_of(run);
     const Eigen::Vector3d phone_uT = run.rig.base_T_magnetometer.linear().transpose() * start.map_field_uT;
     EXPECT_TRUE(std::any_of(walk.begin(), walk.end(), [&](const Fingerprint& row) {
-      return (row.position_m - start.pose.map_T_base.position()).norm() < 1e-9 && (row.field_uT - phone_uT).norm() < 1e-9;
+      return (row.position_m - start.pose.map_T_base.position()).norm() < 1e-9 &&
+             (row.field_uT - phone_uT).norm() < 1e-9;
     }));
   }
 }
@@ -159,9 +164,11 @@ TEST(KaistN17f, SurveyHearsEveryPointOfTheLattice) {
 TEST(KaistN17f, PhoneWasHeldLevelToAFewDegreesAndBothHalvesAgree) {
   MSTSL_REQUIRE_DATA("kaist-n1-7f/batch.csv");
   const auto folder = test::data_file("kaist-n1-7f");
-  const auto halves = test::must(calibrated_halves(test::must(read_kaist_walk(folder / "sjlee_testdata_N1_20180723.csv")),
-                                                   test::must(read_kaist_survey(folder / "batch.csv"))));
-  const Eigen::AngleAxisd apart(Eigen::Matrix3d(halves[0].survey_R_phone.transpose() * halves[1].survey_R_phone));
+  const auto halves =
+      test::must(calibrated_halves(test::must(read_kaist_walk(folder / "sjlee_testdata_N1_20180723.csv")),
+                                   test::must(read_kaist_survey(folder / "batch.csv"))));
+  const Eigen::AngleAxisd apart(
+      Eigen::Matrix3d(halves[0].survey_R_phone.transpose() * halves[1].survey_R_phone));
   EXPECT_LT(degrees(apart.angle()), 5.0);
   for (const WalkHalf& half : halves) {
     EXPECT_LT(degrees(Eigen::AngleAxisd(half.survey_R_phone).angle()), 20.0);

@@ -1,12 +1,13 @@
 #include "mstsl/datasets/rotation_fit.hpp"
 
-#include <gtest/gtest.h>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <vector>
+#include <gtest/gtest.h>
 
 #include "mstsl/core/random.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::datasets {
@@ -19,7 +20,8 @@ Eigen::Vector3d random_vector(Random& random, double size) {
 }
 
 Eigen::Matrix3d random_rotation(Random& random) {
-  return Eigen::AngleAxisd(random.uniform(0.0, 3.1), random_vector(random, 1.0).normalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(random.uniform(0.0, 3.1), random_vector(random, 1.0).normalized())
+      .toRotationMatrix();
 }
 
 Vectors rotated(const Eigen::Matrix3d& rotation, const Vectors& vectors) {

@@ -1,16 +1,17 @@
 #include "mstsl/datasets/tubes.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/angles.hpp"
 #include "mstsl/core/random.hpp"
 #include "mstsl/sim/segment_index.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::datasets {
@@ -19,7 +20,8 @@ namespace {
 Path zigzag(Random& random) {
   Path path_m = {{0.0, 0.0}};
   for (int i = 0; i < 12; ++i)
-    path_m.emplace_back(path_m.back() + Eigen::Vector2d(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0)));
+    path_m.emplace_back(path_m.back() +
+                        Eigen::Vector2d(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0)));
   return path_m;
 }
 
@@ -70,7 +72,7 @@ TEST(Tubes, HaveNoWallButTheirOwn) {
     const bool inner = std::abs(middle_m.x()) < 6.0 && std::abs(middle_m.y()) < 4.0;
     (inner ? inside_m : outside_m) += sim::length(wall);
   }
-  EXPECT_NEAR(inside_m, 2.0 * (9.8 + 5.8), 0.5);                       // the block in the middle
+  EXPECT_NEAR(inside_m, 2.0 * (9.8 + 5.8), 0.5);                      // the block in the middle
   EXPECT_NEAR(outside_m, 2.0 * (12.0 + 8.0) + 2.0 * kPi * 1.1, 0.7);  // with its rounded corners
 }
 
@@ -98,7 +100,8 @@ TEST(SharedAxis, IsFoundWhicheverWayThePathIsWalked) {
   const Eigen::Vector2d along(std::cos(axis_rad), std::sin(axis_rad));
   const Eigen::Vector2d across(-along.y(), along.x());
   const Eigen::Vector2d start(3.0, 4.0);
-  const Path loop_m = {start, start + 30.0 * along, start + 30.0 * along + 10.0 * across, start + 10.0 * across, start};
+  const Path loop_m = {start, start + 30.0 * along, start + 30.0 * along + 10.0 * across,
+                       start + 10.0 * across, start};
   EXPECT_NEAR(shared_axis_rad(std::array{loop_m}), axis_rad, 1e-9);
 }
 

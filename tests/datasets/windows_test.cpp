@@ -1,11 +1,12 @@
 #include "mstsl/datasets/windows.hpp"
 
-#include <gtest/gtest.h>
-
 #include <set>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "mstsl/core/random.hpp"
+
 #include "test_support.hpp"
 
 namespace mstsl::datasets {
@@ -30,7 +31,8 @@ TEST(Windows, AgreeWithBruteForceOnPathsWithGaps) {
     std::vector<Eigen::Vector2d> path_m = {{0.0, 0.0}};
     std::vector<bool> follows = {random.chance(0.5)};
     for (int i = 1; i < 60; ++i) {
-      path_m.emplace_back(path_m.back() + Eigen::Vector2d(random.uniform(0.0, 1.0), random.uniform(-0.5, 0.5)));
+      path_m.emplace_back(path_m.back() +
+                          Eigen::Vector2d(random.uniform(0.0, 1.0), random.uniform(-0.5, 0.5)));
       follows.push_back(random.chance(0.9));
     }
     std::vector<Window> expected;

@@ -18,8 +18,9 @@ struct CeaCorridorOptions {
   double longest_step_m = 0.5;  ///< rows farther apart than this do not belong to one drive (usual: 5-7 cm)
 };
 
-/// One pass of the data set CEA-LIST/large-scale-magnetic-mapping: a CSV file with columns x_m, y_m, z_m, bx_uT, by_uT,
-/// bz_uT, the field calibrated and in the map frame. Errors as read_number_columns, and rows on more than one floor.
+/// One pass of the data set CEA-LIST/large-scale-magnetic-mapping: a CSV file with columns x_m, y_m, z_m,
+/// bx_uT, by_uT, bz_uT, the field calibrated and in the map frame. Errors as read_number_columns, and rows on
+/// more than one floor.
 Result<std::vector<Fingerprint>> read_cea_pass(const std::filesystem::path& file);
 
 /// Real field, simulated lidar and odometry. `folder` holds floor_a_survey.csv, which becomes the survey, and

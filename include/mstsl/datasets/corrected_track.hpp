@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,12 +10,15 @@
 
 namespace mstsl::datasets {
 
-/// A robot's way through the poses that somebody's SLAM gave it now and then: between two of them it has the shape that
-/// odometry recorded, pulled evenly in time so that it meets both.
+/// odom_T_base at a time, between the readings (which are in time order); nothing outside them.
+std::optional<Pose2> odometry_at(std::span<const OdometryReading> odometry, Stamp stamp);
+
+/// A robot's way through the poses that somebody's SLAM gave it now and then: between two of them it has the
+/// shape that odometry recorded, pulled evenly in time so that it meets both.
 class CorrectedTrack {
  public:
-  /// Both in time order, and one corrected pose at least. Odometry need not reach all of them: where there is none the
-  /// way is straight.
+  /// Both in time order, and one corrected pose at least. Odometry need not reach all of them: where there is
+  /// none the way is straight.
   CorrectedTrack(std::span<const PoseReading> corrected, std::span<const OdometryReading> odometry);
 
   Stamp first() const { return knots_.front().stamp; }

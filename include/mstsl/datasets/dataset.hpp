@@ -10,8 +10,9 @@
 #include "mstsl/sim/drive.hpp"
 #include "mstsl/sim/robot.hpp"
 
-/// Real recordings turned into logs that the whole system can be tried on. No public recording has LiDAR, odometry and
-/// a magnetometer, so each data set here is made of real parts and simulated ones, and says which are which.
+/// Real recordings turned into logs that the whole system can be tried on. No public recording has LiDAR,
+/// odometry and a magnetometer, so each data set here is made of real parts and simulated ones, and says
+/// which are which.
 namespace mstsl::datasets {
 
 /// A log to be: what the sensors say, in time order, and apart from it the truth.
@@ -34,7 +35,8 @@ struct RunOptions {
   double length_m = 15.0;  ///< a fix after more than 10 m counts as a failure (paper, section IV-B)
 };
 
-/// The simulator's robot, with a magnetometer that adds nothing to readings which hold a real one's errors already.
+/// The simulator's robot, with a magnetometer that adds nothing to readings which hold a real one's errors
+/// already.
 sim::RobotOptions robot_with_real_magnetometer();
 
 }  // namespace mstsl::datasets

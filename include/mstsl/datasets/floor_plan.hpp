@@ -15,8 +15,8 @@ struct FloorPlan {
   std::vector<Polygon> blocks;
 };
 
-/// Reads {"in": [[x, y], ...], "out": [[[x, y], ...], ...]}. Errors: a file that is no such JSON, polygons of fewer than
-/// three corners, coordinates that are no finite numbers; the message names the place.
+/// Reads {"in": [[x, y], ...], "out": [[[x, y], ...], ...]}. Errors: a file that is no such JSON, polygons of
+/// fewer than three corners, coordinates that are no finite numbers; the message names the place.
 Result<FloorPlan> read_floor_plan(const std::filesystem::path& file);
 
 std::vector<sim::Segment> walls(const FloorPlan& plan);

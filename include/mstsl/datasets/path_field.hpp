@@ -1,14 +1,15 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/magnetic/fingerprint.hpp"
 
 namespace mstsl::datasets {
 
-/// A field that somebody measured along one path: at a place it is the field of the path's nearest point, linear
-/// between successive rows.
+/// A field that somebody measured along one path: at a place it is the field of the path's nearest point,
+/// linear between successive rows.
 class PathField {
  public:
   /// Rows in the order they were walked; positions and fields in the map frame. Expects at least one.

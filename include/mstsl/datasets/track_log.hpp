@@ -19,11 +19,11 @@ struct TrackPart {
   Stamp to;
 };
 
-/// The real odometry and scans of that time, and readings of a simulated magnetometer along the track, in time order
-/// (at one time odometry, then field, then scan). The truth is told at every odometry and every scan; a survey may have
-/// no scans.
-Log track_log(const TrackPart& part, std::span<const OdometryReading> odometry, std::span<const LaserScan> scans,
-              std::shared_ptr<const sim::World> world, const Rig& rig, const sim::MagnetometerOptions& magnetometer,
-              const Random& random);
+/// The real odometry (with a reading added at each scan, between the recorded ones) and scans of that time,
+/// and readings of a simulated magnetometer along the track, in time order (at one time odometry, then field,
+/// then scan). The truth is told at every odometry and every scan; a survey may have no scans.
+Log track_log(const TrackPart& part, std::span<const OdometryReading> odometry,
+              std::span<const LaserScan> scans, std::shared_ptr<const sim::World> world, const Rig& rig,
+              const sim::MagnetometerOptions& magnetometer, const Random& random);
 
 }  // namespace mstsl::datasets
