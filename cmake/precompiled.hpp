@@ -1,7 +1,5 @@
-// The standard and Eigen headers that nearly every file includes, compiled once for all modules (option MSTSL_PCH).
-// Files still include what they use: builds without it must pass, too.
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+// The standard and Eigen headers that nearly every file includes, compiled once for all modules (option
+// MSTSL_PCH). Files still include what they use: builds without it must pass, too.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -13,4 +11,6 @@
 #include <variant>
 #include <vector>
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <fmt/format.h>

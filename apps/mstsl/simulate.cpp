@@ -125,7 +125,7 @@ void add_robot_options(CLI::App& command, Wish& wish) {
       ->check(CLI::Range(0.0, 90.0));
   command.add_option("--speed", robot.motion.speed_m_s, "In m/s")
       ->capture_default_str()
-      ->check(CLI::Range(0.05, 5.0));
+      ->check(CLI::Range(0.05, 2.0));
   command.add_option("--scan-hz", robot.lidar.rate_hz, "Scans a second in the runs' logs")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 100.0));

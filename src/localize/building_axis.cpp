@@ -1,10 +1,11 @@
 #include "mstsl/localize/building_axis.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "mstsl/core/angles.hpp"
 
@@ -28,8 +29,8 @@ std::vector<Eigen::Vector2d> wall_faces(const OccupancyGrid& map) {
   return faces;
 }
 
-/// How much the points, projected on `direction`, fall together: the sum of squared counts over bins of one cell, each
-/// point shared between the two nearest so that the sum is smooth in the angle.
+/// How much the points, projected on `direction`, fall together: the sum of squared counts over bins of one
+/// cell, each point shared between the two nearest so that the sum is smooth in the angle.
 double concentration(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& direction,
                      std::vector<double>& bins) {
   std::fill(bins.begin(), bins.end(), 0.0);

@@ -41,7 +41,8 @@ std::optional<Pose2> OdometryTrack::at(Stamp stamp) const {
   if (track_.size() < 2) return track_.back().pose;
   const TimedPose& before = track_[track_.size() - 2];
   const double period_s = track_.back().stamp - before.stamp;
-  if (period_s > options_.max_extrapolation_s) return track_.back().pose;  // too long ago to tell the present speed
+  if (period_s > options_.max_extrapolation_s)
+    return track_.back().pose;  // too long ago to tell the present speed
   return interpolate(before.pose, track_.back().pose, 1.0 + ahead_s / period_s);
 }
 

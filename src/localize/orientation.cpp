@@ -1,9 +1,10 @@
 #include "mstsl/localize/orientation.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+
+#include <Eigen/Geometry>
 
 #include "mstsl/core/angles.hpp"
 

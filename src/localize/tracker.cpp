@@ -52,7 +52,7 @@ void Tracker::refine(const PointSet& points_base_m) {
   score_ = confidence_score(maps_->walls.occupancy, points_base_m, map_T_base_, options_.score);
 }
 
-/// Looks around for a pose that explains the scan, and takes it only if it does so better.
+/// Looks around for a pose that explains the scan, and takes it only if it does so as well as an answer must.
 void Tracker::search(const PointSet& points_base_m) {
   const PosePrior around{map_T_base_,
                          covariance_ + diagonal(options_.search_sigma_m, options_.search_sigma_rad)};
@@ -60,7 +60,7 @@ void Tracker::search(const PointSet& points_base_m) {
   const auto found = match_submap(maps_->walls, few, points_base_m, around, options_.search);
   const double here = confidence_score(maps_->walls.occupancy, points_base_m, map_T_base_, options_.score);
   score_ = here;
-  if (!found || found->confidence <= here) return;
+  if (!found || found->confidence <= here || found->confidence < options_.min_found_score) return;
   map_T_base_ = found->refined.map_T_base;
   covariance_ = found->refined.covariance;
   score_ = found->confidence;

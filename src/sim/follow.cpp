@@ -104,6 +104,11 @@ class Driver {
           whole_m - along_m < kLookahead_m ? -(inverse(last) * pose_.position()).x() : whole_m - along_m;
       if (to_end_m < kArrived_m) return;
       const double error = angle_between(pose_.yaw, target_heading(stretch, along_m));
+      if (std::abs(error) > kSharpCorner_rad) {  // thrown off its line: stops and faces it again
+        turn(error);
+        speed = 0.0;
+        continue;
+      }
       const double curvature = 2.0 * std::sin(error) / kLookahead_m;
       const double wanted =
           std::min({motion_.speed_m_s, std::sqrt(2.0 * motion_.acceleration_m_s2 * to_end_m) + 1e-3,

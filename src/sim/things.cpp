@@ -71,7 +71,7 @@ Thing make_hidden_steel(const Pose2& map_T_spot, Random& random) {
   const Pose2 at = shifted(map_T_spot, 0.2, radians(3.0), random);
   constexpr double kShareOfMachines = 0.15;
   if (random.chance(kShareOfMachines)) {
-    add_machine(furniture.steel, at * Vector2d(0, 0.5), 1.0, random);
+    add_machine(furniture.steel, at * Vector2d(0, 1.0), 1.0, random);
   } else {
     add_cabinet(furniture.steel, at * Pose2{0, 0.25, 0}, {random.uniform(0.6, 1.2), 0.45},
                 random.uniform(0.8, 2.0), random);

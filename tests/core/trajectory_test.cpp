@@ -1,8 +1,8 @@
 #include "mstsl/core/trajectory.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
 

@@ -27,7 +27,8 @@ Estimate estimate_at(double seconds, double error_m, double probability = 0.9) {
 }
 
 TEST(EvaluateRun, ARightFirstAnswerIsSuccessAndItsDistanceTheCld) {
-  const auto run = evaluate_run({estimate_at(1.05, -1), estimate_at(3.05, 0.3), estimate_at(4.0, 0.1)}, straight_truth());
+  const auto run =
+      evaluate_run({estimate_at(1.05, -1), estimate_at(3.05, 0.3), estimate_at(4.0, 0.1)}, straight_truth());
   EXPECT_TRUE(run.succeeded());
   EXPECT_DOUBLE_EQ(*run.correct_distance_m, 3.05);
   EXPECT_NEAR(run.first()->error.position_m, 0.3, 1e-9);
@@ -81,7 +82,8 @@ TEST(EvaluateRun, CountsHowOftenTheRobotWasLost) {
   lost.status = LocalizationStatus::kLost;
   Estimate still_lost = lost;
   still_lost.stamp = Stamp::from_seconds(2.5);
-  const auto run = evaluate_run({estimate_at(1.0, 0.1), lost, still_lost, estimate_at(3.0, 0.1)}, straight_truth());
+  const auto run =
+      evaluate_run({estimate_at(1.0, 0.1), lost, still_lost, estimate_at(3.0, 0.1)}, straight_truth());
   EXPECT_EQ(run.times_lost, 1u);
 }
 

@@ -1,8 +1,8 @@
 #include "mstsl/eval/run_loop.hpp"
 
-#include <gtest/gtest.h>
-
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace mstsl {
 namespace {

@@ -1,16 +1,21 @@
 #include "mstsl/eval/statistics.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace mstsl {
 namespace {
 
 TEST(WilsonInterval, HasThePublishedValues) {
   // Newcombe (1998), Statistics in Medicine 17:857, table I, method 3.
-  const struct { Rate rate; double low, high; } published[] = {
-      {{81, 263}, 0.2553, 0.3662}, {{15, 148}, 0.0624, 0.1605}, {{0, 20}, 0.0, 0.1611}, {{1, 29}, 0.0061, 0.1718}};
+  const struct {
+    Rate rate;
+    double low, high;
+  } published[] = {{{81, 263}, 0.2553, 0.3662},
+                   {{15, 148}, 0.0624, 0.1605},
+                   {{0, 20}, 0.0, 0.1611},
+                   {{1, 29}, 0.0061, 0.1718}};
   for (const auto& row : published) {
     const Interval interval = wilson_interval(row.rate);
     EXPECT_NEAR(interval.low, row.low, 5e-5) << row.rate.hits << " of " << row.rate.of;

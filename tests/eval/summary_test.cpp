@@ -44,8 +44,9 @@ TEST(Calibrate, CountsTheWrongAmongTheSure) {
 }
 
 TEST(Summarise, CountsEveryRunAlsoThoseWithoutAnAnswer) {
-  const Summary summary = summarise({run_of({answer(0.9, true)}), run_of({answer(0.9, false), answer(0.9, true, 6.0)}),
-                                     run_of({}), run_of({answer(0.999, false)})});
+  const Summary summary =
+      summarise({run_of({answer(0.9, true)}), run_of({answer(0.9, false), answer(0.9, true, 6.0)}),
+                 run_of({}), run_of({answer(0.999, false)})});
   EXPECT_EQ(summary.success.hits, 1u);
   EXPECT_EQ(summary.success.of, 4u);
   EXPECT_EQ(summary.answered.hits, 3u);

@@ -79,11 +79,12 @@ struct HandMadeWorld {
     field.geometry = map.geometry();
     field.mean_uT.assign(field.geometry.size(),
                          Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
-    field.variance_uT2.assign(field.geometry.size(), Eigen::Vector3f::Constant(0.1F));
+    field.variance_uT2 = field.mean_uT;
     field.supported.assign(field.geometry.size(), 0);
     for (std::size_t i = 0; i < field.geometry.size(); ++i) {
       if (map.values()[i] != CellState::kFree) continue;
       field.mean_uT[i] = field_uT(field.geometry.center_of(field.geometry.cell(i))).cast<float>();
+      field.variance_uT2[i].setConstant(0.1F);
       field.supported[i] = 1;
     }
     return field;

@@ -29,8 +29,8 @@ class Trajectory {
   const TimedPose& front() const { return poses_.front(); }
   const TimedPose& back() const { return poses_.back(); }
 
-  /// The pose at a time, between its neighbours; nothing outside the time covered, nor inside a gap longer than
-  /// `max_gap_s`.
+  /// The pose at a time, between its neighbours; nothing outside the time covered, nor inside a gap longer
+  /// than `max_gap_s`.
   std::optional<Pose2> at(Stamp stamp, double max_gap_s) const;
 
  private:

@@ -23,19 +23,23 @@ struct TrackerOptions {
   RefineOptions refine;
   ScoreOptions score;
   /// A scan that scores less speaks against the pose. Lower than the paper's 0.85, which picks a pose:
-  /// people, moved cars and open doors cost a right pose that much for a while.
-  double low_score = 0.6;
+  /// people, moved cars and open doors cost a right pose that much for a while. Not much lower: in a wrong
+  /// corridor as wide as the right one the two walls alone score 0.6.
+  double low_score = 0.75;
   /// After so many low scans in a row the surroundings are searched again ...
   int low_scans_to_search = 5;
   SubmapMatchOptions search;
+  /// ... and what is found there is taken if it scores as an answer must (the paper's S): nearly everywhere
+  /// something fits a little better than a wrong pose.
+  double min_found_score = kConfidenceThreshold;
   double search_sigma_m = 0.35;
   double search_sigma_rad = 0.1;
   /// ... and after so many the robot is lost: 1.5 m of driving, or 7 s of standing, at the rates of
   /// TwoStepOptions.
   int low_scans_to_lose = 15;
-  /// Lost, too, when the position's standard deviation exceeds this, in m: half of what a right pose may be
+  /// Lost, too, when the position's standard deviation exceeds this, in m: as much as a right pose may be
   /// off.
-  double max_sigma_m = 0.25;
+  double max_sigma_m = 0.5;
 };
 
 /// Keeps a known pose known (section III-B continued): odometry's prediction, refined by each scan.
