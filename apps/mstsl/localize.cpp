@@ -17,7 +17,7 @@
 #include "mstsl/io/recording.hpp"
 #include "mstsl/io/recording_info.hpp"
 #include "mstsl/io/tum.hpp"
-#include "mstsl/localize/two_step.hpp"
+#include "mstsl/localize/methods.hpp"
 
 #include "interrupt.hpp"
 #include "progress.hpp"
@@ -34,6 +34,7 @@ struct Wish {
   fs::path field;
   std::string method = "two-step";
   std::size_t hypotheses = DistinctOptions{}.count;
+  double localized_from = JointOptions{}.localized_from;
   fs::path output;
   std::optional<fs::path> tum;
   std::vector<fs::path> logs;
@@ -146,28 +147,26 @@ void print_summary(const Session& session, const io::Summary& summary, const Run
       fmt::print("  {}: {}\n", name, *count);
 }
 
-Result<AnyLocalizer> make_localizer(const Session& session, const Wish& wish, const Maps& maps,
-                                    const Rig& rig) {
-  TwoStepOptions options;
-  options.initialise.distinct.count = wish.hypotheses;
-  options.seed = session.seed;
-  if (auto error = invalid(options)) return *error;
-  return AnyLocalizer(TwoStep(maps, rig, options));
+Result<LocalizerFactory> make_factory(const Session& session, const Wish& wish, const Maps& maps) {
+  MethodOptions options;
+  options.two_step.initialise.distinct.count = wish.hypotheses;
+  options.two_step.seed = session.seed;
+  options.joint.localized_from = wish.localized_from;
+  options.threads = session.threads;
+  return make_method(wish.method, maps, options);
 }
 
 Result<Exit> localize(const Session& session, const Wish& wish) {
   const Result<Maps> maps = load_maps(session, wish);
   if (!maps) return maps.error();
+  const Result<LocalizerFactory> factory = make_factory(session, wish, *maps);
+  if (!factory) return factory.error();
   Result<Output> output = open_output(wish);
   if (!output) return output.error();
 
   std::optional<RunLoop> loop;
-  std::optional<Error> refused;
   const auto on_header = [&](const io::RecordingHeader& header) {
-    Result<AnyLocalizer> localizer = make_localizer(session, wish, *maps, header.rig);
-    if (!localizer) refused = localizer.error();
-    if (localizer)
-      loop.emplace(std::move(localizer).value(), [&](const Estimate& estimate) { output->write(estimate); });
+    loop.emplace((*factory)(header.rig), [&](const Estimate& estimate) { output->write(estimate); });
   };
   Progress progress("localizing", session.quiet);
   const auto span = extent(wish.logs);
@@ -182,7 +181,6 @@ Result<Exit> localize(const Session& session, const Wish& wish) {
   play.topics.imu.clear();
   const Result<io::PlayReport> played = io::play(wish.logs, play, on_header, on_event);
   if (!played) return played.error();
-  if (refused) return *refused;
   if (!loop) return Error(wish.logs.front().string() + ": the log holds no event; nothing to localize");
 
   const LocalizerReport report = loop->localizer().report();
@@ -206,12 +204,18 @@ void add_localize(CLI::App& app, Session& session) {
   command->add_option("--map", wish->map, "Occupancy map: a map_server yaml")->required();
   command->add_option("--field", wish->field, "Field map, as `mstsl map magnetic` makes it")->required();
   command->add_option("--method", wish->method, "How to localize")
-      ->check(CLI::IsMember({"two-step"}))
+      ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
   command
-      ->add_option("-k,--hypotheses", wish->hypotheses,
-                   "Initial hypotheses kept (the paper's K: 5 in its corridor, 8 in its car park)")
+      ->add_option(
+          "-k,--hypotheses", wish->hypotheses,
+          "Two-step method: initial hypotheses kept (the paper's K: 5 in its corridor, 8 in its car park)")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--probability", wish->localized_from,
+                   "Joint method: a pose is published from this probability of being right on")
+      ->check(CLI::Range(0.5, 0.999999))
       ->capture_default_str();
   command->add_option("-o,--output", wish->output, "Estimates, as JSON Lines")->required();
   command->add_option("--tum", wish->tum, "Also the trajectory, in the format that evo reads");

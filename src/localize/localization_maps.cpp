@@ -56,7 +56,7 @@ Result<std::shared_ptr<const LocalizationMaps>> make_localization_maps(
   Result<FieldMatcher> matcher = FieldMatcher::make(field, {.threads = options.threads});
   if (!matcher) return matcher.error();
   return std::make_shared<const LocalizationMaps>(
-      LocalizationMaps{MatchMap(std::move(occupancy)), std::move(matcher).value(), *axis, on_free});
+      LocalizationMaps{MatchMap(std::move(occupancy)), std::move(matcher).value(), FieldSampler(field), *axis, on_free});
 }
 
 }  // namespace mstsl

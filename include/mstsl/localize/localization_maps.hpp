@@ -6,6 +6,7 @@
 #include "mstsl/core/result.hpp"
 #include "mstsl/grid/occupancy_grid.hpp"
 #include "mstsl/magnetic/field_map.hpp"
+#include "mstsl/magnetic/field_sampler.hpp"
 #include "mstsl/magnetic/matcher.hpp"
 #include "mstsl/scan/match_submap.hpp"
 
@@ -16,6 +17,7 @@ namespace mstsl {
 struct LocalizationMaps {
   MatchMap walls;
   FieldMatcher field;
+  FieldSampler field_cells;
   double building_axis_rad = 0.0;  ///< x axis of the map's body frame
   double field_on_free_share =
       1.0;  ///< of the field's supported places: those that the walls' map calls free

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mstsl/core/pose2.hpp"
+#include "mstsl/localize/joint/step.hpp"
+#include "mstsl/magnetic/field_sampler.hpp"
+#include "mstsl/scan/fit_to_walls.hpp"
+
+/// One Gaussian mode of the joint posterior over pose, magnetometer bias and the field map's own error. The
+/// derivation is in docs/joint.md.
+namespace mstsl::joint {
+
+inline constexpr int kStates = 12;
+using Covariance = Eigen::Matrix<double, kStates, kStates>;
+using Vector = Eigen::Matrix<double, kStates, 1>;
+
+/// Where the parts of the state lie: pose (x, y in m, yaw in rad; map), bias (uT, base axes), field of the
+/// drive motors at 1 m/s (uT, base axes), and how far the field here is off the map (uT, map axes).
+enum Part : int { kPose = 0, kBias = 3, kMotor = 6, kMapError = 9 };
+
+struct Mode {
+  Pose2 map_T_base;
+  Vector state = Vector::Zero();  ///< the pose's three entries stay 0: it is kept in map_T_base
+  Covariance covariance = Covariance::Zero();
+  double log_weight = 0.0;  ///< natural log; normalised by ModeBank
+
+  Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
+};
+
+/// What is assumed of the magnetometer and of the field map's truth.
+struct FieldModel {
+  /// Hard iron left on the robot (uT per axis): 6-10 uT are usual without a calibration.
+  double bias_sigma_uT = 7.0;
+  /// Field of the drive motors at 1 m/s (uT per axis).
+  double motor_sigma_uT = 4.0;
+  /// How far the bias wanders over a metre (uT).
+  double bias_walk_uT = 0.1;
+  /// A station's error beyond its readings' scatter: timing, tilt of the floor (uT).
+  double station_sigma_uT = 0.3;
+  /// The map's error at run time over what the regression claims, and a floor (uT): on held-out drives 2-4 in
+  /// variance.
+  double map_error_factor = 1.5;
+  double map_error_floor_uT = 0.5;
+  /// Way after which that error has forgotten itself to 1/e (m): measured 0.8-0.9 at 0.25 m, 0.2 at 1 m.
+  double error_length_m = 0.8;
+  /// Steel that was moved makes the map useless for a while: how often on the way that begins, one in so many
+  /// metres.
+  double change_every_m = 8.0;
+  /// Where nothing is known: how fast the field changes on the way (m, to 1/e).
+  double field_length_m = 1.0;
+};
+
+/// A mode at a pose of covariance `pose_covariance`, nothing known of the magnetometer.
+Mode make_mode(const Pose2& map_T_base, const Eigen::Matrix3d& pose_covariance, const FieldModel& model);
+
+/// Moves a mode by odometry's motion, whose covariance is given in the axes of the base before it.
+void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion_covariance,
+             double bias_walk_uT);
+
+/// Takes in a station: an extended Kalman update. The map's error is a stationary process along the way
+/// (Ornstein-Uhlenbeck), so that near stations do not count as independent; steel that was moved may let it
+/// jump to anything. Returns the natural log of the station's density under the mode.
+double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
+                       const Eigen::Vector2d& magnetometer_m, const FieldModel& model);
+
+/// Takes in a scan's fit: the pose becomes the fit's, and what correlates with the pose follows.
+void update_by_scan(Mode& mode, const WallFit& fit);
+
+}  // namespace mstsl::joint

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mstsl/core/parallel.hpp"
+#include "mstsl/localize/joint/elsewhere.hpp"
+#include "mstsl/localize/joint/maps.hpp"
+#include "mstsl/localize/joint/mode.hpp"
+#include "mstsl/localize/joint/step.hpp"
+#include "mstsl/scan/local_map.hpp"
+
+namespace mstsl::joint {
+
+/// How scans count as evidence between modes. A map's errors (its cells, what was moved, people) are common
+/// to all points on a wall and to all scans from one place, so scans count by how much new they show.
+struct ScanEvidence {
+  /// Natural log of the odds between a mode that fits (score 1) and one that does not (0), for all that is
+  /// seen from one place: 60 beams are worth about 15, each at most about 2.5 (a wall or none).
+  double log_odds = 40.0;
+  /// A scan this far (m) from the last shows a new place: half the view of a corridor with doors.
+  double new_after_m = 3.0;
+  /// Differences in score up to this are the map's errors: they do not tell copies of a place apart.
+  double tolerance = 0.06;
+  /// What a scan scores at a place that is not on the map or was rebuilt.
+  double elsewhere_score = 0.62;
+  double sigma_m = 0.10;
+  double spacing_m = 0.25;
+  std::size_t max_points = 80;
+};
+
+struct BankOptions {
+  FieldModel field;
+  ScanEvidence scan;
+  FitOptions fit;
+  OdometryNoise odometry{0.05, 0.03, 0.05, 0.003, 0.003};
+  /// A station's log density counts this much: what the model does not know makes it too sure of itself.
+  double field_temper = 0.5;
+  /// How often, one in so many metres, the robot is carried off or something happens that no mode knows.
+  double lost_every_m = 20'000.0;
+  /// "None of these" before anything is known.
+  double elsewhere_prior = 0.02;
+  /// Modes this improbable (natural log) against the best are dropped, once their number hurts.
+  double drop_below = -25.0;
+  /// Fits are made for all modes after this much motion while they are many, and at each step when few.
+  double fit_every_m = 0.3;
+  double fit_every_rad = radians(12.0);
+  std::size_t few = 60;
+  /// Two modes become one when the squared distance of their poses, in their common standard deviations, is
+  /// less than this ...
+  double merge_below = 1.0;
+  /// ... and the one is no wider than this (m): the field map is taken as a plane over a mode's width.
+  double widest_m = 0.22;
+  Threads threads;
+};
+
+/// The posterior as a sum of Gaussian modes and "none of these".
+class ModeBank {
+ public:
+  ModeBank(std::shared_ptr<const Maps> maps, const Eigen::Vector2d& magnetometer_m,
+           const BankOptions& options);
+
+  /// One step of the robot: motion, stations, scan.
+  void advance(const Step& step);
+
+  /// Gives most of the weight of "none of these" to the places that the scan allows.
+  void add(const std::vector<WallFit>& places);
+
+  /// Best first. Their weights and elsewhere_share() sum to 1.
+  const std::vector<Mode>& modes() const { return modes_; }
+  double elsewhere_share() const;
+
+  /// The score of the best mode at the last fit.
+  double best_score() const { return best_score_; }
+
+ private:
+  void move(const Step& step);
+  void weigh_by_field(const std::vector<Station>& stations);
+  void weigh_by_scan(const PointSet& points_base_m);
+  void leak(double moved_m);
+  void normalise();
+  void merge();
+  void drop();
+
+  std::shared_ptr<const Maps> maps_;
+  Eigen::Vector2d magnetometer_m_;
+  BankOptions options_;
+  std::vector<Mode> modes_;
+  Elsewhere elsewhere_;
+  double log_elsewhere_ = 0.0;
+  double best_score_ = 0.0;
+  double since_fit_m_ = 0.0, since_fit_rad_ = 0.0;
+  double since_evidence_m_;
+  double since_merge_m_ = 0.0;
+};
+
+}  // namespace mstsl::joint

@@ -1,0 +1,190 @@
+#include "mstsl/localize/joint/joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+namespace mstsl {
+namespace {
+
+constexpr std::size_t kMostHypotheses = 20;  // as many as an estimate lists
+constexpr double kRight_m = 0.5;             // what a right pose is
+constexpr double kRight_rad = radians(10.0);
+
+bool same_place(const Pose2& a, const Pose2& b) {
+  return distance(a, b) <= kRight_m && std::abs(angle_between(a.yaw, b.yaw)) <= kRight_rad;
+}
+
+/// The probability that a mode's true pose is right as far as `pose` is: along its widest direction.
+double share_near(const joint::Mode& mode, const Pose2& pose) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(mode.pose_covariance().topLeftCorner<2, 2>());
+  const double sigma_m = std::sqrt(std::max(eigen.eigenvalues()(1), 1e-8));
+  const double off_m = eigen.eigenvectors().col(1).dot(mode.map_T_base.position() - pose.position());
+  const auto below = [&](double x) { return 0.5 * std::erfc(-x / (sigma_m * std::sqrt(2.0))); };
+  return below(kRight_m - off_m) - below(-kRight_m - off_m);
+}
+
+/// The modes as places: each stands for those within 0.5 m and 10 deg of it.
+std::vector<Hypothesis> places(const std::vector<joint::Mode>& modes) {
+  std::vector<Hypothesis> list;
+  for (const joint::Mode& mode : modes) {
+    const double weight = std::exp(mode.log_weight);
+    const auto same = std::ranges::find_if(
+        list, [&](const Hypothesis& h) { return same_place(h.map_T_base, mode.map_T_base); });
+    if (same != list.end())
+      same->weight += weight;
+    else if (list.size() < kMostHypotheses)
+      list.push_back({mode.map_T_base, weight});
+  }
+  std::ranges::stable_sort(list,
+                           [](const Hypothesis& a, const Hypothesis& b) { return a.weight > b.weight; });
+  return list;
+}
+
+}  // namespace
+
+Joint::Joint(std::shared_ptr<const joint::Maps> maps, const Rig& rig, const JointOptions& options)
+    : maps_(std::move(maps)),
+      rig_(rig),
+      options_(options),
+      track_(options.odometry),
+      stations_(rig, options.stations),
+      bank_(maps_, rig.base_T_magnetometer.translation().head<2>(), options.bank) {}
+
+void Joint::observe(const FieldReading& field) {
+  if (!field.sensor_field_uT.allFinite() || (last_field_ && field.stamp <= *last_field_)) {
+    ++counts_.bad_field;
+    return;
+  }
+  last_field_ = field.stamp;
+  if (const std::optional<Pose2> track_T_base = track_.at(field.stamp))
+    stations_.add(field, *track_T_base);
+  else
+    ++counts_.field_without_odometry;
+}
+
+void Joint::observe(const LaserScan& scan) {
+  if (last_scan_ && scan.stamp <= *last_scan_) {
+    ++counts_.late_scans;
+    return;
+  }
+  last_scan_ = scan.stamp;
+  const std::optional<Pose2> track_T_base = track_.at(scan.stamp);
+  if (!track_T_base) {
+    ++counts_.scans_without_odometry;
+    return;
+  }
+  if (!worth_processing(scan.stamp, *track_T_base)) return;
+  const joint::Step step = make_step(scan, *track_T_base);
+  counts_.stations += step.stations.size();
+  bank_.advance(step);
+  search_if_due(step);
+  judge(std::hypot(step.last_T_base.x, step.last_T_base.y));
+  last_step_ = {step.stamp, *track_T_base};
+  breaks_at_last_step_ = track_.breaks();
+  travelled_m_ = track_.travelled_m();
+}
+
+bool Joint::worth_processing(Stamp stamp, const Pose2& track_T_base) const {
+  if (!last_step_) return true;
+  return distance(last_step_->pose, track_T_base) >= options_.process_every_m ||
+         std::abs(angle_between(last_step_->pose.yaw, track_T_base.yaw)) >= options_.process_every_rad ||
+         stamp - last_step_->stamp >= options_.process_every_s;
+}
+
+joint::Step Joint::make_step(const LaserScan& scan, const Pose2& track_T_base) {
+  joint::Step step;
+  step.stamp = scan.stamp;
+  step.last_T_base = last_step_ ? between(last_step_->pose, track_T_base) : Pose2{};
+  step.broken = last_step_ && track_.breaks() != breaks_at_last_step_;
+  if (step.broken) stations_.interrupt();
+  step.stations = stations_.take(track_T_base);
+  const std::optional<Pose2> track_T_end = track_.at(scan.stamp + sweep_duration_s(scan));
+  step.points_base_m =
+      points_in_base(scan, rig_.base_T_laser, track_T_end ? between(track_T_base, *track_T_end) : Pose2{});
+  if (step.points_base_m.size() < options_.min_returns) {
+    ++counts_.blind_scans;
+    step.points_base_m.clear();
+  }
+  return step;
+}
+
+void Joint::search_if_due(const joint::Step& step) {
+  if (step.points_base_m.empty() || bank_.elsewhere_share() < options_.search_above ||
+      track_.travelled_m() - searched_at_m_ < options_.search_every_m)
+    return;
+  const FoundPlaces found = maps_->places.find(step.points_base_m, options_.bank.threads);
+  if (!found.informative || found.fits.empty()) return;
+  ++counts_.searches;
+  if (!found.complete) ++counts_.cut_searches;
+  searched_at_m_ = track_.travelled_m();
+  bank_.add(found.fits);
+}
+
+double Joint::probability_near(const Pose2& map_T_base) const {
+  double sum = 0;
+  for (const joint::Mode& mode : bank_.modes())
+    if (same_place(mode.map_T_base, map_T_base))
+      sum += std::exp(mode.log_weight) * share_near(mode, map_T_base);
+  return sum;
+}
+
+void Joint::judge(double moved_m) {
+  if (bank_.modes().empty()) return;
+  const Pose2& best = bank_.modes().front().map_T_base;
+  const bool goes_on = candidate_ && same_place(*candidate_, best);
+  candidate_ = best;
+  probability_ = probability_near(best);
+  agreed_m_ = goes_on && probability_ >= options_.localized_from ? agreed_m_ + moved_m : 0.0;
+  if (status_ == LocalizationStatus::kLocalized) {
+    if (goes_on && probability_ >= options_.lost_below) return;
+    status_ = LocalizationStatus::kLost;
+    ++counts_.times_lost;
+  } else if (agreed_m_ >= options_.agree_m) {
+    status_ = LocalizationStatus::kLocalized;
+  }
+}
+
+Estimate Joint::estimate() const {
+  Estimate estimate;
+  if (!last_step_) return estimate;
+  estimate.stamp = last_step_->stamp;
+  estimate.travelled_m = travelled_m_;
+  estimate.status = status_;
+  estimate.hypotheses = places(bank_.modes());
+  if (bank_.modes().empty()) return estimate;
+  const joint::Mode& best = bank_.modes().front();
+  estimate.probability = probability_;
+  estimate.covariance = best.pose_covariance();
+  if (counts_.stations > 0)
+    estimate.bias_uT = rig_.base_T_magnetometer.linear().transpose() * best.state.segment<3>(joint::kBias);
+  if (status_ == LocalizationStatus::kLocalized) estimate.map_T_base = best.map_T_base;
+  return estimate;
+}
+
+LocalizerReport Joint::report() const {
+  LocalizerReport report;
+  const auto count = [&](const char* what, std::uint64_t n) {
+    if (n > 0) report.counts[what] = n;
+  };
+  count("scans out of order", counts_.late_scans);
+  count("scans without enough returns", counts_.blind_scans);
+  count("scans without odometry", counts_.scans_without_odometry);
+  count("field readings not finite or out of order", counts_.bad_field);
+  count("field readings without odometry", counts_.field_without_odometry);
+  count("field stations", counts_.stations);
+  count("searches over the whole map", counts_.searches);
+  count("searches cut short", counts_.cut_searches);
+  count("times lost", counts_.times_lost);
+  return report;
+}
+
+std::optional<Error> invalid(const JointOptions& options) {
+  if (!(options.localized_from > 0.5 && options.localized_from < 1.0))
+    return Error("the probability from which a pose is published must lie between 0.5 and 1");
+  return std::nullopt;
+}
+
+}  // namespace mstsl

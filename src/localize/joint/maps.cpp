@@ -1,0 +1,14 @@
+#include "mstsl/localize/joint/maps.hpp"
+
+#include <utility>
+
+namespace mstsl::joint {
+
+std::shared_ptr<const Maps> make_maps(std::shared_ptr<const LocalizationMaps> both,
+                                      const PlaceSearchOptions& options) {
+  auto walls = std::make_shared<const WallField>(both->walls.occupancy);
+  PlaceSearch places(both->walls.occupancy, walls, options);
+  return std::make_shared<const Maps>(Maps{std::move(both), std::move(walls), std::move(places)});
+}
+
+}  // namespace mstsl::joint

@@ -1,0 +1,133 @@
+#include "mstsl/localize/joint/mode.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "mstsl/core/angles.hpp"
+
+#include "kalman.hpp"
+
+namespace mstsl::joint {
+namespace {
+
+Eigen::Vector3d constant(double value) { return Eigen::Vector3d::Constant(value); }
+double square(double x) { return x * x; }
+
+void shift_pose(Mode& mode, Vector change) {
+  mode.map_T_base =
+      Pose2::from(mode.map_T_base.position() + change.head<2>(), mode.map_T_base.yaw + change(2));
+  change.head<3>().setZero();
+  mode.state += change;
+}
+
+/// A station as a mode sees it: what it expects, and how that changes with the state.
+struct Expected {
+  Eigen::Vector3d without_map_error_uT;
+  Observation by_state;
+  Eigen::Vector3d error_variance_uT2;
+};
+
+Expected expect(const Mode& mode, const Station& station, const FieldSampler& field,
+                const Eigen::Vector2d& magnetometer_m, const FieldModel& model) {
+  const Pose2 then = mode.map_T_base * station.base_T_then;
+  const Eigen::Vector2d place = then * magnetometer_m;
+  const FieldSampler::Sample here = field.sample(place);
+  const Eigen::Matrix3d base_R_map = about_z(then.yaw).transpose();
+  const Eigen::Vector3d field_uT = here.mean_uT + mode.state.segment<3>(kMapError);
+  const Eigen::Vector2d arm = place - mode.map_T_base.position();
+
+  Expected e;
+  e.without_map_error_uT = base_R_map * here.mean_uT + mode.state.segment<3>(kBias) +
+                           station.speed_m_s * mode.state.segment<3>(kMotor);
+  e.by_state.setZero();
+  e.by_state.block<3, 2>(0, kPose) = base_R_map * here.slope_uT_m;
+  // Turning the robot turns its axes against the field, and swings the sensor about the base.
+  const Eigen::Vector3d turned = base_R_map * Eigen::Vector3d(field_uT.y(), -field_uT.x(), 0);
+  e.by_state.col(kPose + 2) = turned + base_R_map * here.slope_uT_m * Eigen::Vector2d(-arm.y(), arm.x());
+  e.by_state.block<3, 3>(0, kBias).setIdentity();
+  e.by_state.block<3, 3>(0, kMotor) = station.speed_m_s * Eigen::Matrix3d::Identity();
+  e.by_state.block<3, 3>(0, kMapError) = base_R_map;
+  const Eigen::Vector3d claimed = square(model.map_error_factor) * here.variance_uT2;
+  e.error_variance_uT2 =
+      here.known
+          ? Eigen::Vector3d(claimed.cwiseMin(field.spread_uT().cwiseAbs2()).cwiseMax(here.variance_uT2) +
+                            constant(square(model.map_error_floor_uT)))
+          : here.variance_uT2;
+  return e;
+}
+
+}  // namespace
+
+Mode make_mode(const Pose2& map_T_base, const Eigen::Matrix3d& pose_covariance, const FieldModel& model) {
+  Mode mode{map_T_base};
+  mode.covariance.topLeftCorner<3, 3>() = pose_covariance;
+  mode.covariance.diagonal().segment<3>(kBias).setConstant(square(model.bias_sigma_uT));
+  mode.covariance.diagonal().segment<3>(kMotor).setConstant(square(model.motor_sigma_uT));
+  return mode;
+}
+
+void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion_covariance,
+             double bias_walk_uT) {
+  const Eigen::Matrix2d rotation = mode.map_T_base.rotation();
+  const Eigen::Vector2d shift = rotation * last_T_base.position();
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity(), by_motion = Eigen::Matrix3d::Identity();
+  by_pose(0, 2) = -shift.y(), by_pose(1, 2) = shift.x();
+  by_motion.topLeftCorner<2, 2>() = rotation;
+  Covariance& p = mode.covariance;
+  p.topRows<3>() = (by_pose * p.topRows<3>()).eval();
+  p.leftCols<3>() = (p.leftCols<3>() * by_pose.transpose()).eval();
+  p.topLeftCorner<3, 3>() += by_motion * motion_covariance * by_motion.transpose();
+  p.diagonal().segment<3>(kBias).array() += square(bias_walk_uT) * shift.norm();
+  mode.map_T_base = mode.map_T_base * last_T_base;
+}
+
+double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
+                       const Eigen::Vector2d& magnetometer_m, const FieldModel& model) {
+  const Expected e = expect(mode, station, field, magnetometer_m, model);
+  const double kept = std::exp(-station.since_last_m / model.error_length_m);
+  let_wander(mode.state, mode.covariance, kept, e.error_variance_uT2);
+
+  const Eigen::Matrix3d noise =
+      (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d base_R_map = e.by_state.block<3, 3>(0, kMapError);
+  const Eigen::Vector3d off_jumped = station.base_field_uT - e.without_map_error_uT;
+  const Eigen::Vector3d off = off_jumped - base_R_map * mode.state.segment<3>(kMapError);
+  const Eigen::LLT<Eigen::Matrix3d> llt(e.by_state * mode.covariance * e.by_state.transpose() + noise);
+
+  const Eigen::Vector3d anything = field.spread_uT().cwiseAbs2() + e.error_variance_uT2;
+  const auto others = e.by_state.leftCols<kMapError>();
+  const Eigen::LLT<Eigen::Matrix3d> llt_jumped(
+      others * mode.covariance.topLeftCorner<kMapError, kMapError>() * others.transpose() +
+      base_R_map * anything.asDiagonal() * base_R_map.transpose() + noise);
+
+  const double way_m = std::min(station.since_last_m, 1.0);
+  const double chance = std::clamp(1.0 - std::exp(-way_m / model.change_every_m), 1e-4, 0.5);
+  const double stayed = std::log1p(-chance) + log_density(off, llt);
+  const double jumped = std::log(chance) + log_density(off_jumped, llt_jumped);
+  if (jumped > stayed) {
+    forget(mode.state, mode.covariance, anything);
+    shift_pose(mode, correct(mode.covariance, e.by_state, off_jumped, llt_jumped));
+  } else {
+    shift_pose(mode, correct(mode.covariance, e.by_state, off, llt));
+  }
+  const double more = std::max(stayed, jumped), less = std::min(stayed, jumped);
+  return more + std::log1p(std::exp(less - more));
+}
+
+void update_by_scan(Mode& mode, const WallFit& fit) {
+  const Eigen::Matrix3d prior = mode.pose_covariance();
+  // P - P_p (P_pp + Lambda^-1)^-1 P_p^T, written so that a scan which leaves a direction open may do so.
+  const Eigen::Matrix3d shrink =
+      fit.information * (Eigen::Matrix3d::Identity() + prior * fit.information).inverse();
+  const Eigen::Matrix<double, kStates, 3> cross = mode.covariance.leftCols<3>();
+  const Eigen::Vector3d moved(fit.map_T_base.x - mode.map_T_base.x, fit.map_T_base.y - mode.map_T_base.y,
+                              angle_between(mode.map_T_base.yaw, fit.map_T_base.yaw));
+  shift_pose(mode, cross * prior.ldlt().solve(moved));
+  mode.map_T_base = fit.map_T_base;
+  mode.covariance.noalias() -= cross * (0.5 * (shrink + shrink.transpose())) * cross.transpose();
+  mode.covariance = (0.5 * (mode.covariance + mode.covariance.transpose())).eval();
+}
+
+}  // namespace mstsl::joint

@@ -1,0 +1,60 @@
+#include "mstsl/magnetic/field_sampler.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace mstsl {
+
+FieldSampler::FieldSampler(const FieldMap& map) : geometry_(map.geometry), frame_(map.geometry) {
+  const Entry nothing{Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()),
+                      Eigen::Vector3f::Zero()};
+  entries_.assign(geometry_.size(), nothing);
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (map.mean_uT[i].allFinite() && map.variance_uT2[i].allFinite())
+      entries_[i] = {map.mean_uT[i], map.variance_uT2[i].cwiseMax(0.0f)};
+  measure_spread(map);
+}
+
+void FieldSampler::measure_spread(const FieldMap& map) {
+  Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
+  double count = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (map.supported[i] == 0 || !entries_[i].mean_uT.allFinite()) continue;
+    const Eigen::Array3d value = entries_[i].mean_uT.cast<double>().array();
+    sum += value, squares += value.square(), count += 1;
+  }
+  if (count < 1) return;
+  mean_uT_ = (sum / count).matrix();
+  spread_uT_ = (squares / count - mean_uT_.array().square()).max(0.0).sqrt().matrix();
+}
+
+FieldSampler::Sample FieldSampler::unknown() const {
+  return {mean_uT_, spread_uT_.cwiseAbs2(), Eigen::Matrix<double, 3, 2>::Zero(), false};
+}
+
+FieldSampler::Sample FieldSampler::sample(const Eigen::Vector2d& map_point_m) const {
+  const Eigen::Vector2d from_center = frame_.to_grid(map_point_m).array() - 0.5;
+  const Cell low = GridFrame::cell_of(from_center);
+  if (low.column < 0 || low.row < 0 || low.column + 1 >= geometry_.columns || low.row + 1 >= geometry_.rows)
+    return unknown();
+  const std::size_t i = geometry_.index(low), up = i + static_cast<std::size_t>(geometry_.columns);
+  const Entry &e00 = entries_[i], &e10 = entries_[i + 1], &e01 = entries_[up], &e11 = entries_[up + 1];
+  const auto u = static_cast<float>(from_center.x() - low.column);
+  const auto v = static_cast<float>(from_center.y() - low.row);
+  const Eigen::Vector3f bottom = e00.mean_uT + u * (e10.mean_uT - e00.mean_uT);
+  const Eigen::Vector3f top = e01.mean_uT + u * (e11.mean_uT - e01.mean_uT);
+  const Eigen::Vector3f mean = bottom + v * (top - bottom);
+  if (!mean.allFinite()) return unknown();
+  const Eigen::Vector3f var_bottom = e00.variance_uT2 + u * (e10.variance_uT2 - e00.variance_uT2);
+  const Eigen::Vector3f var_top = e01.variance_uT2 + u * (e11.variance_uT2 - e01.variance_uT2);
+  const Eigen::Vector3f along_x = (1 - v) * (e10.mean_uT - e00.mean_uT) + v * (e11.mean_uT - e01.mean_uT);
+  Eigen::Matrix<double, 3, 2> per_cell;
+  per_cell << along_x.cast<double>(), (top - bottom).cast<double>();
+  Sample sample{mean.cast<double>(), (var_bottom + v * (var_top - var_bottom)).cast<double>(), per_cell,
+                true};
+  for (int k = 0; k < 3; ++k)
+    sample.slope_uT_m.row(k) = frame_.slope_to_map(per_cell.row(k).transpose()).transpose();
+  return sample;
+}
+
+}  // namespace mstsl

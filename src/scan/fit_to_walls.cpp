@@ -1,0 +1,79 @@
+#include "mstsl/scan/fit_to_walls.hpp"
+
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "mstsl/core/angles.hpp"
+
+namespace mstsl {
+namespace {
+
+/// One point's part: its weight under the Welsch loss and its slope and curvature by the pose.
+struct Sums {
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+  double weight = 0.0;
+};
+
+Sums sums_at(const WallField& walls, const PointSet& points, const Pose2& pose, double sigma_m) {
+  const Eigen::Matrix2d rotation = pose.rotation();
+  const double per_square = 1.0 / (sigma_m * sigma_m);
+  Sums sums;
+  for (const Eigen::Vector2d& p : points) {
+    const Eigen::Vector2d arm = rotation * p;
+    const WallField::Sample at = walls.sample(arm + pose.position());
+    const double weight = std::exp(-0.5 * at.squared_m2 * per_square);
+    sums.weight += weight;
+    const double w = weight * per_square;
+    const Eigen::Vector2d turn(-arm.y(), arm.x());  // how the point moves as the pose turns
+    const double xx = w * at.facing.x(), xy = w * at.facing.y(), yy = w * at.facing.z();
+    const double tx = xx * turn.x() + xy * turn.y(), ty = xy * turn.x() + yy * turn.y();
+    sums.slope += w * Eigen::Vector3d(at.slope_m.x(), at.slope_m.y(), at.slope_m.dot(turn));
+    sums.curvature(0, 0) += xx, sums.curvature(0, 1) += xy, sums.curvature(1, 1) += yy;
+    sums.curvature(0, 2) += tx, sums.curvature(1, 2) += ty;
+    sums.curvature(2, 2) += turn.x() * tx + turn.y() * ty;
+  }
+  sums.curvature(1, 0) = sums.curvature(0, 1);
+  sums.curvature(2, 0) = sums.curvature(0, 2);
+  sums.curvature(2, 1) = sums.curvature(1, 2);
+  return sums;
+}
+
+}  // namespace
+
+WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, const PosePrior& prior,
+                     const FitOptions& options) {
+  WallFit fit{prior.mean};
+  if (points_base_m.empty()) return fit;
+  const Eigen::Matrix3d prior_information = prior.covariance.inverse();
+  Sums sums;
+  for (int i = 0; i < options.max_iterations; ++i) {
+    sums = sums_at(walls, points_base_m, fit.map_T_base, options.sigma_m);
+    const Eigen::Vector3d off(fit.map_T_base.x - prior.mean.x, fit.map_T_base.y - prior.mean.y,
+                              angle_between(prior.mean.yaw, fit.map_T_base.yaw));
+    const Eigen::Vector3d slope = sums.slope / options.points_per_error + prior_information * off;
+    const Eigen::Matrix3d curvature = sums.curvature / options.points_per_error + prior_information;
+    const Eigen::Vector3d step = curvature.inverse() * slope;
+    if (!step.allFinite()) break;
+    fit.map_T_base = Pose2::from(fit.map_T_base.position() - step.head<2>(), fit.map_T_base.yaw - step.z());
+    if (step.norm() < options.converged_m) break;
+  }
+  fit.information = sums.curvature / options.points_per_error;
+  fit.score = wall_score(walls, points_base_m, fit.map_T_base, options.sigma_m);
+  return fit;
+}
+
+double wall_score(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                  double sigma_m) {
+  if (points_base_m.empty()) return 0.0;
+  const Eigen::Matrix2d rotation = map_T_base.rotation();
+  double sum = 0;
+  for (const Eigen::Vector2d& p : points_base_m) {
+    const double d = walls.distances().at(Eigen::Vector2d(rotation * p + map_T_base.position()));
+    sum += std::exp(-0.5 * d * d / (sigma_m * sigma_m));
+  }
+  return sum / static_cast<double>(points_base_m.size());
+}
+
+}  // namespace mstsl
