@@ -1,5 +1,6 @@
 #include "mstsl/scan/fit_to_walls.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -40,6 +41,13 @@ Sums sums_at(const WallField& walls, const PointSet& points, const Pose2& pose, 
   return sums;
 }
 
+/// How far off (m) the prior lets a typical point be: its place and, 5 m away, its turn.
+double reach_of(const PosePrior& prior) {
+  constexpr double kArm_m = 5.0;
+  const Eigen::Vector3d variance = prior.covariance.diagonal();
+  return std::sqrt(0.5 * (variance.x() + variance.y()) + kArm_m * kArm_m * variance.z());
+}
+
 }  // namespace
 
 WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, const PosePrior& prior,
@@ -48,8 +56,9 @@ WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, cons
   if (points_base_m.empty()) return fit;
   const Eigen::Matrix3d prior_information = prior.covariance.inverse();
   Sums sums;
+  double width = std::clamp(reach_of(prior) / options.sigma_m, 1.0, options.widest);
   for (int i = 0; i < options.max_iterations; ++i) {
-    sums = sums_at(walls, points_base_m, fit.map_T_base, options.sigma_m);
+    sums = sums_at(walls, points_base_m, fit.map_T_base, width * options.sigma_m);
     const Eigen::Vector3d off(fit.map_T_base.x - prior.mean.x, fit.map_T_base.y - prior.mean.y,
                               angle_between(prior.mean.yaw, fit.map_T_base.yaw));
     const Eigen::Vector3d slope = sums.slope / options.points_per_error + prior_information * off;
@@ -57,8 +66,10 @@ WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, cons
     const Eigen::Vector3d step = curvature.inverse() * slope;
     if (!step.allFinite()) break;
     fit.map_T_base = Pose2::from(fit.map_T_base.position() - step.head<2>(), fit.map_T_base.yaw - step.z());
-    if (step.norm() < options.converged_m) break;
+    if (width == 1.0 && step.norm() < options.converged_m) break;
+    width = std::max(1.0, 0.6 * width);
   }
+  if (width > 1.0) sums = sums_at(walls, points_base_m, fit.map_T_base, options.sigma_m);
   fit.information = sums.curvature / options.points_per_error;
   fit.score = wall_score(walls, points_base_m, fit.map_T_base, options.sigma_m);
   return fit;

@@ -14,7 +14,10 @@ struct FitOptions {
   double sigma_m = 0.10;
   /// As in RefineOptions: only every n-th point brings independent evidence.
   double points_per_error = 4.0;
-  int max_iterations = 4;
+  int max_iterations = 5;
+  /// The first steps see walls from farther off, up to this many sigma: as far as the prior says that the
+  /// points may lie from theirs.
+  double widest = 4.0;
   /// A step shorter than this (m, or rad at 1 m) ends the iteration: a tenth of what a cell can tell.
   double converged_m = 0.002;
 };

@@ -59,10 +59,24 @@ void Joint::observe(const FieldReading& field) {
     return;
   }
   last_field_ = field.stamp;
-  if (const std::optional<Pose2> track_T_base = track_.at(field.stamp))
-    stations_.add(field, *track_T_base);
-  else
+  const std::optional<Pose2> track_T_base = track_.at(field.stamp);
+  if (!track_T_base) {
     ++counts_.field_without_odometry;
+    return;
+  }
+  stations_.add(field, *track_T_base);
+  // Scans may be far apart: on the way, the field alone takes the modes along.
+  if (last_step_ && distance(last_step_->pose, *track_T_base) >= options_.step_without_scan_m)
+    advance(make_step(field.stamp, *track_T_base), *track_T_base);
+}
+
+void Joint::advance(const joint::Step& step, const Pose2& track_T_base) {
+  counts_.stations += step.stations.size();
+  bank_.advance(step);
+  search_if_due(step);
+  judge(step.last_T_base);
+  last_step_ = {step.stamp, track_T_base};
+  breaks_at_last_step_ = track_.breaks();
 }
 
 void Joint::observe(const LaserScan& scan) {
@@ -77,38 +91,37 @@ void Joint::observe(const LaserScan& scan) {
     return;
   }
   if (!worth_processing(scan.stamp, *track_T_base)) return;
-  const joint::Step step = make_step(scan, *track_T_base);
-  counts_.stations += step.stations.size();
-  bank_.advance(step);
-  search_if_due(step);
-  judge(std::hypot(step.last_T_base.x, step.last_T_base.y));
-  last_step_ = {step.stamp, *track_T_base};
-  breaks_at_last_step_ = track_.breaks();
+  joint::Step step = make_step(scan.stamp, *track_T_base);
+  step.points_base_m = points_of(scan, *track_T_base);
+  advance(step, *track_T_base);
+  processed_ = {scan.stamp, *track_T_base};
   travelled_m_ = track_.travelled_m();
 }
 
 bool Joint::worth_processing(Stamp stamp, const Pose2& track_T_base) const {
-  if (!last_step_) return true;
-  return distance(last_step_->pose, track_T_base) >= options_.process_every_m ||
-         std::abs(angle_between(last_step_->pose.yaw, track_T_base.yaw)) >= options_.process_every_rad ||
-         stamp - last_step_->stamp >= options_.process_every_s;
+  if (!processed_) return true;
+  return distance(processed_->pose, track_T_base) >= options_.process_every_m ||
+         std::abs(angle_between(processed_->pose.yaw, track_T_base.yaw)) >= options_.process_every_rad ||
+         stamp - processed_->stamp >= options_.process_every_s;
 }
 
-joint::Step Joint::make_step(const LaserScan& scan, const Pose2& track_T_base) {
+joint::Step Joint::make_step(Stamp stamp, const Pose2& track_T_base) {
   joint::Step step;
-  step.stamp = scan.stamp;
+  step.stamp = stamp;
   step.last_T_base = last_step_ ? between(last_step_->pose, track_T_base) : Pose2{};
   step.broken = last_step_ && track_.breaks() != breaks_at_last_step_;
   if (step.broken) stations_.interrupt();
   step.stations = stations_.take(track_T_base);
-  const std::optional<Pose2> track_T_end = track_.at(scan.stamp + sweep_duration_s(scan));
-  step.points_base_m =
-      points_in_base(scan, rig_.base_T_laser, track_T_end ? between(track_T_base, *track_T_end) : Pose2{});
-  if (step.points_base_m.size() < options_.min_returns) {
-    ++counts_.blind_scans;
-    step.points_base_m.clear();
-  }
   return step;
+}
+
+PointSet Joint::points_of(const LaserScan& scan, const Pose2& track_T_base) {
+  const std::optional<Pose2> track_T_end = track_.at(scan.stamp + sweep_duration_s(scan));
+  PointSet points =
+      points_in_base(scan, rig_.base_T_laser, track_T_end ? between(track_T_base, *track_T_end) : Pose2{});
+  if (points.size() >= options_.min_returns) return points;
+  ++counts_.blind_scans;
+  return {};
 }
 
 void Joint::search_if_due(const joint::Step& step) {
@@ -131,13 +144,15 @@ double Joint::probability_near(const Pose2& map_T_base) const {
   return sum;
 }
 
-void Joint::judge(double moved_m) {
+void Joint::judge(const Pose2& last_T_base) {
   if (bank_.modes().empty()) return;
   const Pose2& best = bank_.modes().front().map_T_base;
-  const bool goes_on = candidate_ && same_place(*candidate_, best);
+  const bool goes_on = candidate_ && same_place(*candidate_ * last_T_base, best);
   candidate_ = best;
   probability_ = probability_near(best);
-  agreed_m_ = goes_on && probability_ >= options_.localized_from ? agreed_m_ + moved_m : 0.0;
+  agreed_m_ = goes_on && probability_ >= options_.localized_from
+                  ? agreed_m_ + std::hypot(last_T_base.x, last_T_base.y)
+                  : 0.0;
   if (status_ == LocalizationStatus::kLocalized) {
     if (goes_on && probability_ >= options_.lost_below) return;
     status_ = LocalizationStatus::kLost;
@@ -149,8 +164,8 @@ void Joint::judge(double moved_m) {
 
 Estimate Joint::estimate() const {
   Estimate estimate;
-  if (!last_step_) return estimate;
-  estimate.stamp = last_step_->stamp;
+  if (!processed_) return estimate;
+  estimate.stamp = processed_->stamp;
   estimate.travelled_m = travelled_m_;
   estimate.status = status_;
   estimate.hypotheses = places(bank_.modes());

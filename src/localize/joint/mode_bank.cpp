@@ -60,6 +60,14 @@ double standing(const OccupancyGrid& occupancy, const Pose2& pose) {
 
 }  // namespace
 
+Eigen::Matrix3d MotionNoise::covariance(const Pose2& motion) const {
+  const double way_m = std::hypot(motion.x, motion.y), turn_rad = std::abs(motion.yaw);
+  const double place_m2 = square(m_per_root_m) * way_m + square(floor_m);
+  const double yaw_rad2 =
+      square(rad_per_root_m) * way_m + square(rad_per_root_rad) * turn_rad + square(floor_rad);
+  return Eigen::Vector3d(place_m2, place_m2, yaw_rad2).asDiagonal();
+}
+
 ModeBank::ModeBank(std::shared_ptr<const Maps> maps, const Eigen::Vector2d& magnetometer_m,
                    const BankOptions& options)
     : maps_(std::move(maps)),

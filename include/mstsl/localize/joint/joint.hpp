@@ -31,6 +31,8 @@ struct JointOptions {
   double process_every_m = 0.1;
   double process_every_rad = radians(5.0);
   double process_every_s = 0.5;
+  /// Where scans are further apart than this (m), the field alone makes steps in between.
+  double step_without_scan_m = 0.15;
   /// Scans with fewer returns say nothing.
   std::size_t min_returns = 30;
 };
@@ -61,9 +63,11 @@ class Joint {
     std::uint64_t searches = 0, cut_searches = 0, times_lost = 0;
   };
   bool worth_processing(Stamp stamp, const Pose2& track_T_base) const;
-  joint::Step make_step(const LaserScan& scan, const Pose2& track_T_base);
+  joint::Step make_step(Stamp stamp, const Pose2& track_T_base);
+  PointSet points_of(const LaserScan& scan, const Pose2& track_T_base);
+  void advance(const joint::Step& step, const Pose2& track_T_base);
   void search_if_due(const joint::Step& step);
-  void judge(double moved_m);
+  void judge(const Pose2& last_T_base);
   double probability_near(const Pose2& map_T_base) const;
 
   std::shared_ptr<const joint::Maps> maps_;
@@ -74,12 +78,13 @@ class Joint {
   joint::ModeBank bank_;
   Counts counts_;
   std::optional<Stamp> last_scan_, last_field_;
+  std::optional<TimedPose> processed_;  ///< the last scan that was worth a step
   std::optional<TimedPose> last_step_;
   std::uint64_t breaks_at_last_step_ = 0;
   double travelled_m_ = 0.0;
   double searched_at_m_ = -1e9;
   LocalizationStatus status_ = LocalizationStatus::kSearching;
-  std::optional<Pose2> candidate_;  ///< the place that is best now, carried on by odometry
+  std::optional<Pose2> candidate_;  ///< the place that was best at the last step
   double agreed_m_ = 0.0;           ///< for how long it has been probable enough
   double probability_ = 0.0;
 };

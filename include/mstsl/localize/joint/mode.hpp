@@ -41,7 +41,7 @@ struct FieldModel {
   /// The map's error at run time over what the regression claims, and a floor (uT): on held-out drives 2-4 in
   /// variance.
   double map_error_factor = 1.5;
-  double map_error_floor_uT = 0.5;
+  double map_error_floor_uT = 1.0;
   /// Way after which that error has forgotten itself to 1/e (m): measured 0.8-0.9 at 0.25 m, 0.2 at 1 m.
   double error_length_m = 0.8;
   /// Steel that was moved makes the map useless for a while: how often on the way that begins, one in so many
