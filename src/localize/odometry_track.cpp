@@ -6,15 +6,16 @@
 namespace mstsl {
 
 bool OdometryTrack::plausible(const Pose2& step, double seconds) const {
-  // Stamps of drivers jitter: within a hundredth of a second hardly any speed can be told.
-  const double time_s = std::max(seconds, 0.01);
+  // Stamps jitter, and drivers that were held up hand on several readings in a burst: within a tenth of a
+  // second hardly any speed can be told.
+  const double time_s = std::max(seconds, 0.1);
   return std::hypot(step.x, step.y) <= options_.max_speed_m_s * time_s &&
          std::abs(step.yaw) <= options_.max_turn_rate_rad_s * time_s;
 }
 
 void OdometryTrack::add(const OdometryReading& reading) {
   const Pose2 pose = Pose2::from(reading.odom_T_base.position(), reading.odom_T_base.yaw);
-  if (!pose.is_finite() || (last_ && reading.stamp <= last_->stamp)) {
+  if (!pose.is_finite() || (last_ && reading.stamp < last_->stamp)) {
     ++dropped_;
     return;
   }
@@ -26,7 +27,8 @@ void OdometryTrack::add(const OdometryReading& reading) {
     if (!goes_on) ++breaks_;
     const Pose2 moved = goes_on ? step : Pose2{};
     travelled_m_ += std::hypot(moved.x, moved.y);
-    track_.add(reading.stamp, track_.back().pose * moved);
+    const Pose2 now = track_.back().pose * moved;
+    if (!track_.add(reading.stamp, now)) track_.replace_last(now);  // several readings of one stamp
     track_.forget_before(reading.stamp + -options_.memory_s);
   }
   last_ = OdometryReading{reading.stamp, pose};

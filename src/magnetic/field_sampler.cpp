@@ -1,5 +1,6 @@
 #include "mstsl/magnetic/field_sampler.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,7 @@ FieldSampler::FieldSampler(const FieldMap& map) : geometry_(map.geometry), frame
     if (map.mean_uT[i].allFinite() && map.variance_uT2[i].allFinite())
       entries_[i] = {map.mean_uT[i], map.variance_uT2[i].cwiseMax(0.0f)};
   measure_spread(map);
+  measure_length(map);
 }
 
 void FieldSampler::measure_spread(const FieldMap& map) {
@@ -26,6 +28,32 @@ void FieldSampler::measure_spread(const FieldMap& map) {
   if (count < 1) return;
   mean_uT_ = (sum / count).matrix();
   spread_uT_ = (squares / count - mean_uT_.array().square()).max(0.0).sqrt().matrix();
+}
+
+void FieldSampler::measure_length(const FieldMap& map) {
+  constexpr double kLag_m = 0.5;
+  const int lag = std::max(1, static_cast<int>(std::lround(kLag_m / geometry_.resolution_m)));
+  const auto usable = [&](std::size_t i) { return map.supported[i] != 0 && entries_[i].mean_uT.allFinite(); };
+  double squares = 0, pairs = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (!usable(i)) continue;
+    const Cell cell = geometry_.cell(i);
+    for (const Cell next : {Cell{cell.column + lag, cell.row}, Cell{cell.column, cell.row + lag}}) {
+      if (!geometry_.contains(next) || !usable(geometry_.index(next))) continue;
+      squares += (entries_[geometry_.index(next)].mean_uT - entries_[i].mean_uT).cast<double>().squaredNorm();
+      pairs += 1;
+    }
+  }
+  const double variance = spread_uT_.squaredNorm();
+  if (pairs < 1 || !(variance > 0)) return;
+  const double correlation = 1.0 - 0.5 * squares / pairs / variance;
+  // (1 + a) exp(-a) falls from 1 to 0: halve the interval of lengths that holds the answer.
+  double low = 0.3, high = 3.0;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high), a = std::sqrt(3.0) * lag * geometry_.resolution_m / middle;
+    ((1 + a) * std::exp(-a) < correlation ? low : high) = middle;
+  }
+  length_m_ = 0.5 * (low + high);
 }
 
 FieldSampler::Sample FieldSampler::unknown() const {

@@ -10,6 +10,8 @@
 namespace mstsl {
 namespace {
 
+constexpr double kLongest_m = 0.2, kLongest_rad = 0.1;  // a step within the reach of a wall
+
 /// One point's part: its weight under the Welsch loss and its slope and curvature by the pose.
 struct Sums {
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();
@@ -63,8 +65,11 @@ WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, cons
                               angle_between(prior.mean.yaw, fit.map_T_base.yaw));
     const Eigen::Vector3d slope = sums.slope / options.points_per_error + prior_information * off;
     const Eigen::Matrix3d curvature = sums.curvature / options.points_per_error + prior_information;
-    const Eigen::Vector3d step = curvature.inverse() * slope;
+    Eigen::Vector3d step = curvature.inverse() * slope;
     if (!step.allFinite()) break;
+    // Far from its answer the curvature says little of how far that is.
+    const double too_long = std::max(step.head<2>().norm() / kLongest_m, std::abs(step.z()) / kLongest_rad);
+    if (too_long > 1.0) step /= too_long;
     fit.map_T_base = Pose2::from(fit.map_T_base.position() - step.head<2>(), fit.map_T_base.yaw - step.z());
     if (width == 1.0 && step.norm() < options.converged_m) break;
     width = std::max(1.0, 0.6 * width);

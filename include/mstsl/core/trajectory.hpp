@@ -20,6 +20,9 @@ class Trajectory {
   /// Appends a pose. False, and nothing appended, if it is not finite or not later than the last one.
   bool add(Stamp stamp, const Pose2& pose);
 
+  /// Another pose in place of the last one, which there must be. Expects a finite pose.
+  void replace_last(const Pose2& pose) { poses_.back().pose = pose; }
+
   /// Drops the poses before the last one that is no later than `stamp`, so that `at(stamp)` stays answered.
   void forget_before(Stamp stamp);
 

@@ -35,11 +35,14 @@ class OdometryTrack {
   /// otherwise.
   std::optional<Pose2> at(Stamp stamp) const;
 
+  /// Whether `stamp` lies no later than the last reading, so that at() need not extrapolate.
+  bool covers(Stamp stamp) const { return !track_.empty() && stamp <= track_.back().stamp; }
+
   /// The path length so far, in m. Breaks add nothing.
   double travelled_m() const { return travelled_m_; }
   /// How often the chain was broken: motion over a break is unknown.
   std::uint64_t breaks() const { return breaks_; }
-  /// Readings that were dropped: not finite, or not later than the last one.
+  /// Readings that were dropped: not finite, or earlier than the last one.
   std::uint64_t dropped() const { return dropped_; }
 
  private:

@@ -29,6 +29,9 @@ class FieldSampler {
   /// place about which nothing is known.
   const Eigen::Vector3d& mean_uT() const { return mean_uT_; }
   const Eigen::Vector3d& spread_uT() const { return spread_uT_; }
+  /// How fast the field changes from place to place: the length (m) of a Matern 3/2 covariance with the map's
+  /// own correlation at half a metre; between 0.3 and 3 m.
+  double length_m() const { return length_m_; }
 
  private:
   struct Entry {
@@ -36,6 +39,7 @@ class FieldSampler {
     Eigen::Vector3f variance_uT2;
   };
   void measure_spread(const FieldMap& map);
+  void measure_length(const FieldMap& map);
   Sample unknown() const;
 
   GridGeometry geometry_;
@@ -43,6 +47,7 @@ class FieldSampler {
   std::vector<Entry> entries_;  ///< NaN where the map has no value
   Eigen::Vector3d mean_uT_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d spread_uT_ = Eigen::Vector3d::Zero();
+  double length_m_ = 1.0;
 };
 
 }  // namespace mstsl

@@ -14,7 +14,7 @@ double square(double x) { return x * x; }
 }  // namespace
 
 Elsewhere::Elsewhere(const FieldSampler& field, const FieldModel& model)
-    : model_(model), spread_uT_(field.spread_uT()) {
+    : model_(model), spread_uT_(field.spread_uT()), length_m_(field.length_m()) {
   const Eigen::Vector3d mean = field.mean_uT();
   // The mean field is the whole map's, turned by a heading that is not known.
   state_(kMean + 2) = mean.z();
@@ -25,8 +25,7 @@ Elsewhere::Elsewhere(const FieldSampler& field, const FieldModel& model)
 }
 
 double Elsewhere::update_by_field(const Station& station) {
-  let_wander(state_, covariance_, std::exp(-station.since_last_m / model_.field_length_m),
-             spread_uT_.cwiseAbs2());
+  let_wander(state_, covariance_, station.since_last_m, length_m_, spread_uT_.cwiseAbs2());
   const Eigen::Matrix3d base_R_start = about_z(yaw_rad_ + station.base_T_then.yaw).transpose();
   Observation by_state = Observation::Zero();
   by_state.block<3, 3>(0, kMean) = base_R_start;

@@ -53,21 +53,35 @@ Joint::Joint(std::shared_ptr<const joint::Maps> maps, const Rig& rig, const Join
       stations_(rig, options.stations),
       bank_(maps_, rig.base_T_magnetometer.translation().head<2>(), options.bank) {}
 
+void Joint::observe(const OdometryReading& odometry) {
+  track_.add(odometry);
+  take_waiting(false);
+}
+
 void Joint::observe(const FieldReading& field) {
   if (!field.sensor_field_uT.allFinite() || (last_field_ && field.stamp <= *last_field_)) {
     ++counts_.bad_field;
     return;
   }
   last_field_ = field.stamp;
-  const std::optional<Pose2> track_T_base = track_.at(field.stamp);
-  if (!track_T_base) {
-    ++counts_.field_without_odometry;
-    return;
+  waiting_.push_back(field);
+  take_waiting(false);
+}
+
+void Joint::take_waiting(bool now) {
+  while (!waiting_.empty() && (now || track_.covers(waiting_.front().stamp))) {
+    const FieldReading field = waiting_.front();
+    waiting_.pop_front();
+    const std::optional<Pose2> track_T_base = track_.at(field.stamp);
+    if (!track_T_base) {
+      ++counts_.field_without_odometry;
+      continue;
+    }
+    stations_.add(field, *track_T_base);
+    // Scans may be far apart: on the way, the field alone takes the modes along.
+    if (last_step_ && distance(last_step_->pose, *track_T_base) >= options_.step_without_scan_m)
+      advance(make_step(field.stamp, *track_T_base), *track_T_base);
   }
-  stations_.add(field, *track_T_base);
-  // Scans may be far apart: on the way, the field alone takes the modes along.
-  if (last_step_ && distance(last_step_->pose, *track_T_base) >= options_.step_without_scan_m)
-    advance(make_step(field.stamp, *track_T_base), *track_T_base);
 }
 
 void Joint::advance(const joint::Step& step, const Pose2& track_T_base) {
@@ -91,6 +105,7 @@ void Joint::observe(const LaserScan& scan) {
     return;
   }
   if (!worth_processing(scan.stamp, *track_T_base)) return;
+  take_waiting(true);
   joint::Step step = make_step(scan.stamp, *track_T_base);
   step.points_base_m = points_of(scan, *track_T_base);
   advance(step, *track_T_base);

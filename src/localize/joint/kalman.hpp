@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -37,20 +38,35 @@ inline Vector correct(Covariance& covariance, const Observation& by_state, const
   return gain * off;
 }
 
-/// One step of an Ornstein-Uhlenbeck process in the three last states: shrinks by `kept`, regains `variance`.
-inline void let_wander(Vector& state, Covariance& covariance, double kept, const Eigen::Vector3d& variance) {
-  state.segment<3>(kMapError) *= kept;
-  covariance.block<3, kStates>(kMapError, 0) *= kept;
-  covariance.block<kStates, 3>(0, kMapError) *= kept;
-  covariance.diagonal().segment<3>(kMapError) += (1.0 - kept * kept) * variance;
+/// Moves the map error on by `way_m`: a Matern 3/2 process of stationary variance `variance`, in its
+/// state-space form (Hartikainen & Sarkka, "Kalman filtering and smoothing solutions to temporal Gaussian
+/// process regression models", 2010, Eq. 12-16), its slope counted per `length_m` / sqrt(3).
+inline void let_wander(Vector& state, Covariance& covariance, double way_m, double length_m,
+                       const Eigen::Vector3d& variance) {
+  const double a = std::min(std::sqrt(3.0) * way_m / length_m, 50.0), fade = std::exp(-a);
+  const double ee = fade * (1 + a), es = fade * a, se = -fade * a, ss = fade * (1 - a);
+  const auto mix = [&](auto&& error, auto&& slope) {
+    const auto before = error.eval();
+    error = ee * before + es * slope;
+    slope = se * before + ss * slope.eval();
+  };
+  mix(state.segment<3>(kMapError), state.segment<3>(kMapErrorSlope));
+  mix(covariance.middleRows<3>(kMapError), covariance.middleRows<3>(kMapErrorSlope));
+  mix(covariance.middleCols<3>(kMapError), covariance.middleCols<3>(kMapErrorSlope));
+  covariance.diagonal().segment<3>(kMapError) += (1 - ee * ee - es * es) * variance;
+  covariance.diagonal().segment<3>(kMapErrorSlope) += (1 - se * se - ss * ss) * variance;
+  const Eigen::Vector3d cross = -(ee * se + es * ss) * variance;
+  covariance.block<3, 3>(kMapError, kMapErrorSlope).diagonal() += cross;
+  covariance.block<3, 3>(kMapErrorSlope, kMapError).diagonal() += cross;
 }
 
-/// Forgets the three last states: anything of that variance.
-inline void forget(Vector& state, Covariance& covariance, const Eigen::Vector3d& variance) {
-  state.segment<3>(kMapError).setZero();
-  covariance.block<3, kStates>(kMapError, 0).setZero();
-  covariance.block<kStates, 3>(0, kMapError).setZero();
-  covariance.diagonal().segment<3>(kMapError) = variance;
+/// Forgets the map error and its slope: anything of that variance.
+inline void forget_map_error(Vector& state, Covariance& covariance, const Eigen::Vector3d& variance) {
+  constexpr int kRest = kStates - kMapError;
+  state.tail<kRest>().setZero();
+  covariance.bottomRows<kRest>().setZero();
+  covariance.rightCols<kRest>().setZero();
+  covariance.diagonal().tail<kRest>() << variance, variance;
 }
 
 }  // namespace mstsl::joint

@@ -86,8 +86,7 @@ void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion
 double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
                        const Eigen::Vector2d& magnetometer_m, const FieldModel& model) {
   const Expected e = expect(mode, station, field, magnetometer_m, model);
-  const double kept = std::exp(-station.since_last_m / model.error_length_m);
-  let_wander(mode.state, mode.covariance, kept, e.error_variance_uT2);
+  let_wander(mode.state, mode.covariance, station.since_last_m, model.error_length_m, e.error_variance_uT2);
 
   const Eigen::Matrix3d noise =
       (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity();
@@ -107,7 +106,7 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   const double stayed = std::log1p(-chance) + log_density(off, llt);
   const double jumped = std::log(chance) + log_density(off_jumped, llt_jumped);
   if (jumped > stayed) {
-    forget(mode.state, mode.covariance, anything);
+    forget_map_error(mode.state, mode.covariance, anything);
     shift_pose(mode, correct(mode.covariance, e.by_state, off_jumped, llt_jumped));
   } else {
     shift_pose(mode, correct(mode.covariance, e.by_state, off, llt));

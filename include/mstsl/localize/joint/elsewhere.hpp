@@ -19,6 +19,7 @@ class Elsewhere {
  private:
   FieldModel model_;
   Eigen::Vector3d spread_uT_;
+  double length_m_;
   double yaw_rad_ = 0.0;  ///< from where it was at the start
   /// In place of a pose: the mean field in the axes that the base had at the start; the rest as in a mode.
   Vector state_ = Vector::Zero();

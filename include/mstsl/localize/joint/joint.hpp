@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -47,7 +48,7 @@ class Joint {
  public:
   Joint(std::shared_ptr<const joint::Maps> maps, const Rig& rig, const JointOptions& options = {});
 
-  void observe(const OdometryReading& odometry) { track_.add(odometry); }
+  void observe(const OdometryReading& odometry);
   void observe(const OdometryRestart& restart) { track_.restart(restart); }
   void observe(const LaserScan& scan);
   void observe(const FieldReading& field);
@@ -62,6 +63,8 @@ class Joint {
     std::uint64_t bad_field = 0, field_without_odometry = 0, stations = 0;
     std::uint64_t searches = 0, cut_searches = 0, times_lost = 0;
   };
+  /// Readings wait for the odometry around them, but no longer than until the next scan is processed.
+  void take_waiting(bool now);
   bool worth_processing(Stamp stamp, const Pose2& track_T_base) const;
   joint::Step make_step(Stamp stamp, const Pose2& track_T_base);
   PointSet points_of(const LaserScan& scan, const Pose2& track_T_base);
@@ -75,6 +78,7 @@ class Joint {
   JointOptions options_;
   OdometryTrack track_;
   joint::StationCollector stations_;
+  std::deque<FieldReading> waiting_;
   joint::ModeBank bank_;
   Counts counts_;
   std::optional<Stamp> last_scan_, last_field_;

@@ -11,13 +11,14 @@
 /// derivation is in docs/joint.md.
 namespace mstsl::joint {
 
-inline constexpr int kStates = 12;
+inline constexpr int kStates = 15;
 using Covariance = Eigen::Matrix<double, kStates, kStates>;
 using Vector = Eigen::Matrix<double, kStates, 1>;
 
 /// Where the parts of the state lie: pose (x, y in m, yaw in rad; map), bias (uT, base axes), field of the
-/// drive motors at 1 m/s (uT, base axes), and how far the field here is off the map (uT, map axes).
-enum Part : int { kPose = 0, kBias = 3, kMotor = 6, kMapError = 9 };
+/// drive motors at 1 m/s (uT, base axes), how far the field here is off the map (uT, map axes), and how that
+/// changes along the way (in lengths of its correlation: uT).
+enum Part : int { kPose = 0, kBias = 3, kMotor = 6, kMapError = 9, kMapErrorSlope = 12 };
 
 struct Mode {
   Pose2 map_T_base;
@@ -42,13 +43,12 @@ struct FieldModel {
   /// variance.
   double map_error_factor = 1.5;
   double map_error_floor_uT = 1.0;
-  /// Way after which that error has forgotten itself to 1/e (m): measured 0.8-0.9 at 0.25 m, 0.2 at 1 m.
-  double error_length_m = 0.8;
+  /// Length (m) of that error's correlation along the way, Matern 3/2: it was measured to be 0.8-0.9 at 0.25
+  /// m and 0.2 at 1 m, and this one is 0.83 and 0.20.
+  double error_length_m = 0.58;
   /// Steel that was moved makes the map useless for a while: how often on the way that begins, one in so many
   /// metres.
   double change_every_m = 8.0;
-  /// Where nothing is known: how fast the field changes on the way (m, to 1/e).
-  double field_length_m = 1.0;
 };
 
 /// A mode at a pose of covariance `pose_covariance`, nothing known of the magnetometer.
@@ -59,8 +59,8 @@ void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion
              double bias_walk_uT);
 
 /// Takes in a station: an extended Kalman update. The map's error is a stationary process along the way
-/// (Ornstein-Uhlenbeck), so that near stations do not count as independent; steel that was moved may let it
-/// jump to anything. Returns the natural log of the station's density under the mode.
+/// (Matern 3/2: smooth, as fields are), so that near stations do not count as independent; steel that was
+/// moved may let it jump to anything. Returns the natural log of the station's density under the mode.
 double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
                        const Eigen::Vector2d& magnetometer_m, const FieldModel& model);
 
