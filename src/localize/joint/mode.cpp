@@ -115,6 +115,14 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   return more + std::log1p(std::exp(less - more));
 }
 
+void reseat(Mode& mode, const WallFit& fit, const Eigen::Matrix3d& pose_covariance, double loosen_uT) {
+  mode.map_T_base = fit.map_T_base;
+  mode.covariance.topRows<3>().setZero();
+  mode.covariance.leftCols<3>().setZero();
+  mode.covariance.topLeftCorner<3, 3>() = pose_covariance;
+  mode.covariance.diagonal().segment<3>(kBias).array() += square(loosen_uT);
+}
+
 void update_by_scan(Mode& mode, const WallFit& fit) {
   const Eigen::Matrix3d prior = mode.pose_covariance();
   // P - P_p (P_pp + Lambda^-1)^-1 P_p^T, written so that a scan which leaves a direction open may do so.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -14,6 +15,8 @@ namespace mstsl::joint {
 namespace {
 
 double square(double x) { return x * x; }
+
+constexpr std::size_t kSearched = 5;  // so many of the best modes are searched around
 
 bool heavier(const Mode& a, const Mode& b) {
   return std::tuple(-a.log_weight, a.map_T_base.x, a.map_T_base.y, a.map_T_base.yaw) <
@@ -112,13 +115,7 @@ void ModeBank::weigh_by_field(const std::vector<Station>& stations) {
   });
 }
 
-void ModeBank::weigh_by_scan(const PointSet& points_base_m) {
-  if (points_base_m.empty() || modes_.empty()) return;
-  const bool due = modes_.size() <= options_.few || since_fit_m_ >= options_.fit_every_m ||
-                   since_fit_rad_ >= options_.fit_every_rad;
-  if (!due) return;
-  since_fit_m_ = since_fit_rad_ = 0.0;
-  const PointSet points = at_most(thinned(points_base_m, options_.scan.spacing_m), options_.scan.max_points);
+std::vector<double> ModeBank::fit_all(const PointSet& points) {
   std::vector<double> scores(modes_.size());
   constexpr std::size_t kChunk = 64;
   parallel_for((modes_.size() + kChunk - 1) / kChunk, options_.threads, [&](std::size_t chunk) {
@@ -127,8 +124,44 @@ void ModeBank::weigh_by_scan(const PointSet& points_base_m) {
                                        {modes_[i].map_T_base, modes_[i].pose_covariance()}, options_.fit);
       update_by_scan(modes_[i], fit);
       scores[i] = fit.score * standing(maps_->both->walls.occupancy, fit.map_T_base);
+      if (modes_.size() <= options_.few && i < kSearched && scores[i] < options_.search_below)
+        search_around(modes_[i], scores[i], points);
     }
   });
+  return scores;
+}
+
+void ModeBank::search_around(Mode& mode, double& score, const PointSet& points) const {
+  // Steps that a fit reaches across: it finds a wall from 0.2 m and a turn from 3 deg.
+  constexpr double kStep_m = 0.25, kStep_rad = 0.06;
+  constexpr int kTurns = 4;
+  const Eigen::Vector3d variances(square(kStep_m / 2), square(kStep_m / 2), square(kStep_rad / 2));
+  const Eigen::Matrix3d spread = variances.asDiagonal();
+  std::optional<WallFit> best;
+  for (int turn = -kTurns; turn <= kTurns; ++turn) {
+    for (const Eigen::Vector2d& off :
+         {Eigen::Vector2d(0, 0), Eigen::Vector2d(kStep_m, 0), Eigen::Vector2d(-kStep_m, 0),
+          Eigen::Vector2d(0, kStep_m), Eigen::Vector2d(0, -kStep_m)}) {
+      const Pose2 from = mode.map_T_base * Pose2{off.x(), off.y(), turn * kStep_rad};
+      const WallFit fit = fit_to_walls(*maps_->walls, points, {from, spread}, options_.fit);
+      if (!best || fit.score > best->score) best = fit;
+    }
+  }
+  const double found = best->score * standing(maps_->both->walls.occupancy, best->map_T_base);
+  if (found < score + options_.search_gain) return;
+  score = found;
+  reseat(mode, *best, spread, 1.0);
+  update_by_scan(mode, *best);
+}
+
+void ModeBank::weigh_by_scan(const PointSet& points_base_m) {
+  if (points_base_m.empty() || modes_.empty()) return;
+  const bool due = modes_.size() <= options_.few || since_fit_m_ >= options_.fit_every_m ||
+                   since_fit_rad_ >= options_.fit_every_rad;
+  if (!due) return;
+  since_fit_m_ = since_fit_rad_ = 0.0;
+  const PointSet points = at_most(thinned(points_base_m, options_.scan.spacing_m), options_.scan.max_points);
+  const std::vector<double> scores = fit_all(points);
   // The best fit among the modes that count is what this place can look like today.
   double reference = options_.scan.elsewhere_score;
   for (std::size_t i = 0; i < modes_.size(); ++i)

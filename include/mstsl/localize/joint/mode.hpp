@@ -64,6 +64,10 @@ void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion
 double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
                        const Eigen::Vector2d& magnetometer_m, const FieldModel& model);
 
+/// Puts a mode's pose where a scan fits, its own belief in the pose given up: what the field told of the
+/// magnetometer is kept, loosened by `loosen_uT`.
+void reseat(Mode& mode, const WallFit& fit, const Eigen::Matrix3d& pose_covariance, double loosen_uT);
+
 /// Takes in a scan's fit: the pose becomes the fit's, and what correlates with the pose follows.
 void update_by_scan(Mode& mode, const WallFit& fit);
 

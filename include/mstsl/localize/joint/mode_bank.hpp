@@ -60,6 +60,10 @@ struct BankOptions {
   double fit_every_m = 0.3;
   double fit_every_rad = radians(12.0);
   std::size_t few = 60;
+  /// When few modes are left and a scan fits one of them worse than this, its surroundings are searched, and
+  /// a pose there that scores so much more takes its place: a wheel slipped, or a turn was missed.
+  double search_below = 0.7;
+  double search_gain = 0.15;
   /// Two modes become one when the squared distance of their poses, in their common standard deviations, is
   /// less than this ...
   double merge_below = 1.0;
@@ -91,6 +95,8 @@ class ModeBank {
   void move(const Step& step);
   void weigh_by_field(const std::vector<Station>& stations);
   void weigh_by_scan(const PointSet& points_base_m);
+  std::vector<double> fit_all(const PointSet& points_base_m);
+  void search_around(Mode& mode, double& score, const PointSet& points_base_m) const;
   void leak(double moved_m);
   void normalise();
   void merge();
