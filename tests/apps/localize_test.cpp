@@ -161,7 +161,7 @@ TEST(EvaluateCommand, JudgesWhatLocalizeWrote) {
   const auto summary = nlohmann::json::parse(json.text);
   EXPECT_EQ(summary.at("runs"), 1);
   EXPECT_EQ(summary.at("success").at("hits"), 1);
-  EXPECT_EQ(summary.at("initialised").at("of"), 1);
+  EXPECT_EQ(summary.at("initialised").at("hits"), 1);
   const Printed table =
       run_app("evaluate --truth " + truth + " --truth " + truth + " " + estimates + " " + estimates);
   EXPECT_EQ(table.exit_status, 0) << table.text;
