@@ -44,6 +44,7 @@ void add_world_options(CLI::App& command, Wish& wish) {
   which->require_option(1);
   sim::WorldOptions& building = wish.building;
   command.add_option("--size", wish.size_m, "Length and width of a built-in world in m")
+      ->delimiter(',')
       ->check(CLI::Range(5.0, 500.0));
   command.add_option("--inclination", wish.inclination_deg, "Of the Earth's field below the horizontal, deg")
       ->capture_default_str()
@@ -115,6 +116,7 @@ void add_robot_options(CLI::App& command, Wish& wish) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1000.0));
   command.add_option("--tilt", wish.tilt_deg, "Roll, pitch and yaw of the magnetometer on the robot, deg")
+      ->delimiter(',')
       ->check(CLI::Range(-180.0, 180.0));
   command
       .add_option("--odometry-scale", robot.odometry.scale_sigma, "SD of the odometry's relative scale error")
