@@ -198,7 +198,7 @@ TEST(BadInput, ALimitOnFileSizesIsOneSentence) {
 
 TEST(BadInput, AnInterruptEndsInOrder) {
   const std::string folder = Site::get().path("interrupted").string();
-  const Printed printed = run_shell("timeout --preserve-status -s INT 1 " + std::string(MSTSL_APP) +
+  const Printed printed = run_shell("timeout --preserve-status -s INT 2 " + std::string(MSTSL_APP) +
                                     " simulate --world office-wing --runs 500 -o " + folder);
   expect_refusal(printed, folder, "stopped");
 }
