@@ -17,6 +17,7 @@ endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)  # where CMAKE_UNITY_BUILD is on
 
 # Flags for our own objects only: linked PRIVATE by mstsl_module(), so users of the library inherit none of them.
 add_library(mstsl_own_flags INTERFACE)
@@ -30,6 +31,10 @@ elseif(MSTSL_SIMD STREQUAL "native")
   target_compile_options(mstsl_own_flags INTERFACE -march=native)
 elseif(NOT MSTSL_SIMD STREQUAL "portable")
   message(FATAL_ERROR "MSTSL_SIMD is '${MSTSL_SIMD}'; choose portable, avx2 or native")
+endif()
+if(CMAKE_UNITY_BUILD)
+  # Both ask what is whose in a file, and one file is made of several.
+  target_compile_options(mstsl_own_flags INTERFACE -Wno-shadow -Wno-subobject-linkage)
 endif()
 if(MSTSL_SANITIZE)
   target_compile_options(mstsl_own_flags INTERFACE -fsanitize=${MSTSL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

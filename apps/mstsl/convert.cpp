@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What the user gave; nothing where the data set's own default holds.
-struct Wish {
+struct ConvertWish {
   std::string dataset;
   fs::path input;
   fs::path output;
@@ -41,7 +41,7 @@ void apply(const std::optional<T>& wished, T& option) {
 }
 
 template <typename Options>
-Options options_of(const Wish& wish) {
+Options options_of(const ConvertWish& wish) {
   Options options;
   apply(wish.runs, options.runs.count);
   apply(wish.run_length_m, options.runs.length_m);
@@ -50,7 +50,7 @@ Options options_of(const Wish& wish) {
   return options;
 }
 
-Result<datasets::Dataset> make_dataset(const Wish& wish, const Random& random) {
+Result<datasets::Dataset> make_dataset(const ConvertWish& wish, const Random& random) {
   if (wish.dataset == "cea-corridor")
     return datasets::cea_corridor(wish.input, options_of<datasets::CeaCorridorOptions>(wish), random);
   if (wish.dataset == "kaist-n1-7f")
@@ -61,7 +61,7 @@ Result<datasets::Dataset> make_dataset(const Wish& wish, const Random& random) {
   return datasets::carmen(wish.input, options, random);
 }
 
-void report(const Session& session, const Wish& wish, const datasets::Dataset& dataset) {
+void report(const Session& session, const ConvertWish& wish, const datasets::Dataset& dataset) {
   if (session.json) {
     const nlohmann::ordered_json summary = {{"folder", wish.output.string()},
                                             {"map", (wish.output / "map.yaml").string()},
@@ -75,7 +75,7 @@ void report(const Session& session, const Wish& wish, const datasets::Dataset& d
   }
 }
 
-Result<Exit> convert(const Session& session, const Wish& wish) {
+Result<Exit> convert(const Session& session, const ConvertWish& wish) {
   const Result<datasets::Dataset> dataset = make_dataset(wish, Random(session.seed));
   if (!dataset) return dataset.error();
   Progress progress("writing logs", session.quiet);
@@ -89,7 +89,7 @@ Result<Exit> convert(const Session& session, const Wish& wish) {
 }  // namespace
 
 void add_convert(CLI::App& app, Session& session) {
-  auto wish = std::make_shared<Wish>();
+  auto wish = std::make_shared<ConvertWish>();
   CLI::App* command = app.add_subcommand("convert", "Make maps, surveys and runs from public recordings");
   command->add_option("--dataset", wish->dataset, "Which recordings these are")
       ->required()

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-struct Wish {
+struct DemoWish {
   fs::path output = "mstsl-demo";
   int runs = 3;
   /// A tenth of the paper's: one quick pass over every lane.
@@ -58,7 +58,7 @@ Result<void> type(const Session& session, Words words, std::string_view what) {
   return Error(fmt::format("the demonstration ended because `mstsl {}` failed", words.front()));
 }
 
-Result<Exit> demo(const Session& session, const Wish& wish) {
+Result<Exit> demo(const Session& session, const DemoWish& wish) {
   const fs::path& folder = wish.output;
   const std::string map = folder / "map.yaml", field = folder / "field.nc";
   if (auto done = type(
@@ -106,7 +106,7 @@ Result<Exit> demo(const Session& session, const Wish& wish) {
 }  // namespace
 
 void add_demo(CLI::App& app, Session& session) {
-  auto wish = std::make_shared<Wish>();
+  auto wish = std::make_shared<DemoWish>();
   CLI::App* command =
       app.add_subcommand("demo", "Simulate, survey, map, localize and show: the whole system in one go");
   command->add_option("-o,--output", wish->output, "Folder for all results")->capture_default_str();

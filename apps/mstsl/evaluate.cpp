@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Wish {
+struct EvaluateWish {
   std::vector<fs::path> truths;
   std::vector<fs::path> estimates;
 };
@@ -41,7 +41,7 @@ Result<RunEvaluation> evaluate_file(const fs::path& truth_file, const fs::path& 
   return run;
 }
 
-Result<Exit> evaluate(const Session& session, const Wish& wish) {
+Result<Exit> evaluate(const Session& session, const EvaluateWish& wish) {
   const bool one_for_all = wish.truths.size() == 1;
   if (!one_for_all && wish.truths.size() != wish.estimates.size())
     return Error(
@@ -64,7 +64,7 @@ Result<Exit> evaluate(const Session& session, const Wish& wish) {
 }  // namespace
 
 void add_evaluate(CLI::App& app, Session& session) {
-  auto wish = std::make_shared<Wish>();
+  auto wish = std::make_shared<EvaluateWish>();
   CLI::App* command = app.add_subcommand("evaluate", "Hold estimates against the truth");
   command
       ->add_option(

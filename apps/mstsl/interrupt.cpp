@@ -2,6 +2,9 @@
 
 #include <atomic>
 #include <csignal>
+#include <string_view>
+
+#include <unistd.h>
 
 namespace mstsl::app {
 namespace {
@@ -10,6 +13,10 @@ std::atomic<bool> interrupt_seen = false;  // the one global: a signal handler h
 
 void on_signal(int signal) {
   interrupt_seen = true;
+  constexpr std::string_view kStopping = "\nmstsl: stopping after this step; ^C again stops at once\n";
+  if (isatty(STDERR_FILENO) != 0) {
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, kStopping.data(), kStopping.size());
+  }
   std::signal(signal, SIG_DFL);
 }
 
@@ -18,6 +25,7 @@ void on_signal(int signal) {
 void stop_on_interrupt() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of the write that meets it
 }
 
 bool interrupted() { return interrupt_seen; }

@@ -20,6 +20,7 @@
 #include "mstsl/localize/methods.hpp"
 
 #include "interrupt.hpp"
+#include "output_paths.hpp"
 #include "progress.hpp"
 #include "session.hpp"
 #include "topic_options.hpp"
@@ -156,7 +157,16 @@ Result<LocalizerFactory> make_factory(const Session& session, const Wish& wish, 
   return make_method(wish.method, maps, options);
 }
 
+/// Nothing where the outputs destroy no input.
+std::optional<Error> overwritten(const Wish& wish) {
+  std::vector<fs::path> inputs = wish.logs, outputs{wish.output};
+  inputs.insert(inputs.end(), {wish.map, wish.field});
+  if (wish.tum) outputs.push_back(*wish.tum);
+  return overwritten_input(outputs, inputs);
+}
+
 Result<Exit> localize(const Session& session, const Wish& wish) {
+  if (auto error = overwritten(wish)) return *std::move(error);
   const Result<Maps> maps = load_maps(session, wish);
   if (!maps) return maps.error();
   const Result<LocalizerFactory> factory = make_factory(session, wish, *maps);

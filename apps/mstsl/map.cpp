@@ -13,6 +13,7 @@
 
 #include "interrupt.hpp"
 #include "map_report.hpp"
+#include "output_paths.hpp"
 #include "progress.hpp"
 #include "session.hpp"
 #include "survey_reader.hpp"
@@ -69,6 +70,9 @@ Result<FieldMap> build(const Session& session, const SurveyAnalysis& analysis, c
 }
 
 Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
+  std::vector<fs::path> inputs = wish.logs;
+  inputs.push_back(wish.map);
+  if (auto error = overwritten_input({wish.output}, inputs)) return *std::move(error);
   if (!wish.initial_pose.empty())
     return Error("--initial-pose is not offered yet; give --pose-topic with the poses of the survey");
   const Result<io::MapFile> occupancy = io::read_map_file(wish.map);

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kWorldStream = 1, kDataStream = 2;
 
-struct Wish {
+struct SimulateWish {
   std::string world;
   fs::path base_map;
   fs::path output;
@@ -37,13 +37,14 @@ struct Wish {
   double drift_deg_per_m = degrees(sim::OdometryOptions{}.drift_sigma_rad_per_m);
 };
 
-void add_world_options(CLI::App& command, Wish& wish) {
+void add_world_options(CLI::App& command, SimulateWish& wish) {
   CLI::Option_group* which = command.add_option_group("World", "one of these");
   which->add_option("--world", wish.world, "A built-in world")->check(CLI::IsMember(sim::world_names()));
   which->add_option("--base-map", wish.base_map, "Walls from a map_server map: its yaml file");
   which->require_option(1);
   sim::WorldOptions& building = wish.building;
   command.add_option("--size", wish.size_m, "Length and width of a built-in world in m")
+      ->delimiter(',')
       ->check(CLI::Range(5.0, 500.0));
   command.add_option("--inclination", wish.inclination_deg, "Of the Earth's field below the horizontal, deg")
       ->capture_default_str()
@@ -66,7 +67,7 @@ void add_world_options(CLI::App& command, Wish& wish) {
       ->check(CLI::Range(0.0, 1.0));
 }
 
-void add_survey_options(CLI::App& command, Wish& wish) {
+void add_survey_options(CLI::App& command, SimulateWish& wish) {
   sim::SurveyOptions& survey = wish.data.survey;
   command.add_option("--lane-spacing", survey.lane_spacing_m, "Between the survey's parallel lines, m")
       ->capture_default_str()
@@ -87,7 +88,7 @@ void add_survey_options(CLI::App& command, Wish& wish) {
       ->check(CLI::Range(0.0, 100.0));
 }
 
-void add_run_options(CLI::App& command, Wish& wish) {
+void add_run_options(CLI::App& command, SimulateWish& wish) {
   command.add_option("--runs", wish.data.runs, "How many runs to be localized")
       ->capture_default_str()
       ->check(CLI::Range(0, 100'000));
@@ -99,7 +100,7 @@ void add_run_options(CLI::App& command, Wish& wish) {
       "Begin runs with a turn in place until parallel to the wall that the first scan shows (default)");
 }
 
-void add_robot_options(CLI::App& command, Wish& wish) {
+void add_robot_options(CLI::App& command, SimulateWish& wish) {
   sim::RobotOptions& robot = wish.data.robot;
   command
       .add_option("--bias-sigma-uT", robot.magnetometer.bias_sigma_uT,
@@ -115,6 +116,7 @@ void add_robot_options(CLI::App& command, Wish& wish) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1000.0));
   command.add_option("--tilt", wish.tilt_deg, "Roll, pitch and yaw of the magnetometer on the robot, deg")
+      ->delimiter(',')
       ->check(CLI::Range(-180.0, 180.0));
   command
       .add_option("--odometry-scale", robot.odometry.scale_sigma, "SD of the odometry's relative scale error")
@@ -134,7 +136,7 @@ void add_robot_options(CLI::App& command, Wish& wish) {
       ->check(CLI::Range(0.0, 100.0));
 }
 
-void convert_units(Wish& wish) {
+void convert_units(SimulateWish& wish) {
   wish.building.size_m = {wish.size_m[0], wish.size_m[1]};
   wish.building.earth.inclination_rad = radians(wish.inclination_deg);
   wish.building.earth.north_rad = radians(wish.north_deg);
@@ -143,7 +145,7 @@ void convert_units(Wish& wish) {
   wish.data.robot.odometry.drift_sigma_rad_per_m = radians(wish.drift_deg_per_m);
 }
 
-Result<sim::World> build(const Wish& wish, const Random& random) {
+Result<sim::World> build(const SimulateWish& wish, const Random& random) {
   if (wish.base_map.empty()) return sim::make_world(wish.world, wish.building, random);
   const auto map = io::read_map_file(wish.base_map);
   if (!map) return map.error();
@@ -153,7 +155,7 @@ Result<sim::World> build(const Wish& wish, const Random& random) {
   return world;
 }
 
-void report(const Session& session, const Wish& wish, const datasets::Dataset& dataset) {
+void report(const Session& session, const SimulateWish& wish, const datasets::Dataset& dataset) {
   if (session.json) {
     const nlohmann::ordered_json summary = {{"folder", wish.output.string()},
                                             {"map", (wish.output / "map.yaml").string()},
@@ -167,7 +169,7 @@ void report(const Session& session, const Wish& wish, const datasets::Dataset& d
   }
 }
 
-Result<Exit> simulate(const Session& session, Wish wish) {
+Result<Exit> simulate(const Session& session, SimulateWish wish) {
   convert_units(wish);
   const Random random(session.seed);
   const auto world = build(wish, random.fork(kWorldStream));
@@ -186,7 +188,7 @@ Result<Exit> simulate(const Session& session, Wish wish) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Session& session) {
-  auto wish = std::make_shared<Wish>();
+  auto wish = std::make_shared<SimulateWish>();
   CLI::App* command =
       app.add_subcommand("simulate", "Make a building, survey its field, and record runs in it");
   add_world_options(*command, *wish);

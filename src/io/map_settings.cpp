@@ -12,6 +12,13 @@ namespace {
 constexpr double kMaxResolution_m = 100.0;  // a slip of units, not a map
 constexpr double kMaxOrigin_m = 1e8;        // projected coordinates (UTM) stay below 1e7
 
+/// What the parser quotes may be the middle of a binary file.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+  return text;
+}
+
 YAML::Node need(const YAML::Node& root, const char* key) {
   const YAML::Node node = root[key];
   if (!node)
@@ -95,7 +102,7 @@ MapSettings parse_map_settings(const std::string& text) {
   try {
     return settings_from(YAML::Load(text));
   } catch (const YAML::Exception& problem) {
-    throw FileProblem("line {} is not yaml: {}", problem.mark.line + 1, problem.msg);
+    throw FileProblem("line {} is not yaml: {}", problem.mark.line + 1, printable(problem.msg));
   }
 }
 

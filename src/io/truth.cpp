@@ -15,7 +15,7 @@ namespace mstsl::io {
 namespace {
 
 constexpr std::string_view kHeader = "t,x,y,yaw";
-constexpr std::size_t kMaxBytes = std::size_t{1} << 32;
+constexpr std::size_t kMaxTruthBytes = std::size_t{1} << 32;
 
 PoseReading parse_row(std::string_view line, std::size_t number) {
   const std::vector<std::string_view> fields = split(line, ',');
@@ -30,7 +30,7 @@ PoseReading parse_row(std::string_view line, std::size_t number) {
   return {*stamp, Pose2::from({*x, *y}, *yaw)};
 }
 
-std::vector<PoseReading> parse(std::string_view text) {
+std::vector<PoseReading> parse_truth(std::string_view text) {
   const std::vector<std::string_view> lines = lines_of(text);
   if (lines.empty() || lines.front() != kHeader)
     throw FileProblem("line 1 is not '{}'; true poses are expected in s, m, m, rad", kHeader);
@@ -61,9 +61,9 @@ Result<void> write_truth(const std::vector<PoseReading>& poses, const std::files
 }
 
 Result<std::vector<PoseReading>> read_truth(const std::filesystem::path& file) {
-  const Result<std::string> text = read_file(file, kMaxBytes);
+  const Result<std::string> text = read_file(file, kMaxTruthBytes);
   if (!text) return text.error();
-  return guarded(file, [&] { return parse(*text); });
+  return guarded(file, [&] { return parse_truth(*text); });
 }
 
 }  // namespace mstsl::io

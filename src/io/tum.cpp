@@ -15,7 +15,7 @@
 namespace mstsl::io {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 32;
+constexpr std::size_t kMaxTumBytes = std::size_t{1} << 32;
 
 PoseReading parse_row(const std::vector<std::string_view>& fields, std::size_t number) {
   if (fields.size() != 8)
@@ -38,7 +38,7 @@ PoseReading parse_row(const std::vector<std::string_view>& fields, std::size_t n
   return {*stamp, to_pose2(motion)};
 }
 
-std::vector<PoseReading> parse(std::string_view text) {
+std::vector<PoseReading> parse_tum(std::string_view text) {
   std::vector<PoseReading> poses;
   const std::vector<std::string_view> lines = lines_of(text);
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -70,9 +70,9 @@ Result<void> TumWriter::write(const PoseReading& pose) {
 Result<void> TumWriter::close() { return file_.close(); }
 
 Result<std::vector<PoseReading>> read_tum(const std::filesystem::path& file) {
-  const Result<std::string> text = read_file(file, kMaxBytes);
+  const Result<std::string> text = read_file(file, kMaxTumBytes);
   if (!text) return text.error();
-  return guarded(file, [&] { return parse(*text); });
+  return guarded(file, [&] { return parse_tum(*text); });
 }
 
 }  // namespace mstsl::io

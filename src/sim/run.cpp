@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-enum Stream : std::uint64_t { kWaypoint = 1, kRoute = 2 };
+enum RunStream : std::uint64_t { kWaypoint = 1, kRoute = 2 };
 constexpr int kTries = 200;
 
 bool is_roomy(const World& world, const Vector2d& point_m, double clearance_m) {

@@ -6,8 +6,6 @@
 namespace mstsl::sim {
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Which side of the segment's line a point lies on: the sign of this.
 double side(const Segment& segment, const Eigen::Vector2d& point_m) {
   return cross(segment.b - segment.a, point_m - segment.a);

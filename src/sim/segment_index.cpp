@@ -13,8 +13,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Segments are also entered in buckets they miss by this little, so that rounding loses none.
 constexpr double kSlack_m = 1e-9;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// The distance along the ray to a segment, or infinity.
 double meet(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, const Segment& segment) {
   const Eigen::Vector2d edge = segment.b - segment.a;

@@ -31,7 +31,7 @@ double clearance_at(const World& world, const Vector2d& point_m) {
 
 /// The parts of a line that a robot can drive: a parked car or a cupboard may stand in its way.
 std::vector<Segment> drivable_parts(const World& world, const Segment& line, double clearance_m) {
-  constexpr double kStep_m = 0.1, kShortest_m = 1.0;
+  constexpr double kStep_m = 0.05, kShortest_m = 1.0;
   const int steps = std::max(1, static_cast<int>(length(line) / kStep_m));
   std::vector<Segment> parts;
   int first = -1;
@@ -107,8 +107,9 @@ Result<void> drive_lines(const World& world, const std::vector<Segment>& lines, 
       routes.push_back({direction(line), {}});
     Route& route = routes.back();
     const double before_m = length(route);
-    for (const Vector2d& point : {line.a, line.b, line.a})
-      if (const auto went = go_to(world, route, point, options.path); !went) return went.error();
+    if (const auto went = go_to(world, route, line.a, options.path); !went) return went.error();
+    // Straight, not planned: a planner would leave a line near a wall or through a door for an easier way.
+    route.waypoints_m.insert(route.waypoints_m.end(), {line.b, line.a});
     driven_m += length(route) - before_m;
   }
   return {};

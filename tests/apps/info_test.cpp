@@ -1,11 +1,9 @@
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 #include "mstsl/io/estimates.hpp"
 #include "mstsl/io/field_map_file.hpp"
@@ -13,6 +11,7 @@
 #include "mstsl/io/recording_writer.hpp"
 #include "mstsl/io/truth.hpp"
 
+#include "run_app.hpp"
 #include "test_support.hpp"
 
 /// `mstsl info` as a user meets it: the program is run, and what it prints is read.
@@ -23,22 +22,10 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using test::must;
 
-struct Printed {
-  int exit_status = -1;
-  std::string text;  ///< stdout and stderr together
-};
+using test::Printed;
 
 Printed run_info(const fs::path& file, const std::string& options = "") {
-  const std::string command = std::string(MSTSL_APP) + " info " + options + " '" + file.string() + "' 2>&1";
-  Printed printed;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return printed;
-  char piece[4096];
-  for (std::size_t got; (got = std::fread(piece, 1, sizeof piece, pipe)) > 0;)
-    printed.text.append(piece, got);
-  const int status = pclose(pipe);
-  printed.exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return printed;
+  return test::run_app("info " + options + " '" + file.string() + "'");
 }
 
 json info(const fs::path& file) {

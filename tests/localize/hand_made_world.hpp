@@ -42,11 +42,16 @@ struct HandMadeWorld {
     return !ring && !open;
   }
 
-  /// The field at a point of the world, in the world's axes: the Earth's and waves of 1.5 to 4 m, 6 uT high.
+  /// The field at a point of the world, in the world's axes: the Earth's and waves of 1.5 to 5 m, 7 uT rms an
+  /// axis. Each axis has its own waves, as real fields do: where axes share them, a vector recurs every few
+  /// metres and no method tells the places apart by one reading.
   static Eigen::Vector3d field_in_world_uT(const Eigen::Vector2d& p) {
-    const double a = std::sin(2.1 * p.x() + 0.7 * p.y()), b = std::sin(1.6 * p.x() - 2.9 * p.y() + 1.0);
-    const double c = std::sin(3.7 * p.x() + 1.9 * p.y() + 2.0), d = std::cos(2.7 * p.y() - 1.1 * p.x());
-    return {3 + 6 * a + 3 * c, 20 + 6 * b + 3 * d, -43 + 6 * c + 4 * a - 3 * b};
+    const auto wave = [&p](double kx, double ky, double phase) {
+      return std::sin(kx * p.x() + ky * p.y() + phase);
+    };
+    return {3 + 7 * wave(2.1, 0.7, 0.0) + 7 * wave(1.13, -1.7, 0.4),
+            20 + 7 * wave(1.6, -2.9, 1.0) + 7 * wave(0.93, 1.4, 2.9),
+            -43 + 7 * wave(3.7, 1.9, 2.0) + 7 * wave(-1.27, 2.7, 1.6)};
   }
 
   Eigen::Vector3d field_uT(const Eigen::Vector2d& map_point_m) const {

@@ -49,8 +49,7 @@ bool is_clear(const World& world, const Segment& line, double clearance_m) {
 }
 
 TEST(Survey, DrivesEachFreeLaneBothWays) {
-  // Not the office wing: its short lanes into rooms can be left out where furniture stands.
-  for (const std::string name : {"corridor", "carpark", "warehouse"}) {
+  for (const std::string& name : world_names()) {
     const World world = must(make_world(name, {}, Random(1)));
     const auto routes = must(survey_routes(world, {}));
     for (const Lane& lane : world.lanes()) {
@@ -69,6 +68,38 @@ TEST(Survey, DrivesEachFreeLaneBothWays) {
       EXPECT_GT(forth_m, 0.8 * length(lane.center)) << name;
       EXPECT_GT(back_m, 0.8 * length(lane.center)) << name;
     }
+  }
+}
+
+/// The share of a world's lanes' free width, sampled, that lies within `reach_m` of the survey's way.
+double covered_share(const World& world, const std::vector<Route>& routes, double margin_m, double reach_m) {
+  int free = 0, covered = 0;
+  for (const Lane& lane : world.lanes()) {
+    const Vector2d ahead = (lane.center.b - lane.center.a).normalized(), aside(-ahead.y(), ahead.x());
+    const double half_m = 0.5 * lane.free_width_m - margin_m;
+    for (double share = 0.02; share < 1.0; share += 0.04)
+      for (double beside_m = -half_m; beside_m <= half_m; beside_m += 0.1) {
+        const Vector2d point = point_along(lane.center, share) + beside_m * aside;
+        if (world.surfaces().clearance(point, 1.0) < margin_m) continue;
+        double away_m = 1e9;
+        for (const Route& route : routes)
+          for (const Segment& leg : polyline(route.waypoints_m, false))
+            away_m = std::min(away_m, distance(point, leg));
+        ++free;
+        covered += away_m <= reach_m;
+      }
+  }
+  return static_cast<double>(covered) / free;
+}
+
+TEST(Survey, LeavesNoStripOfALaneOut) {
+  // The lines along the walls are driven as they are, not drawn to the middle by a planner that likes room.
+  const SurveyOptions options;
+  const double reach_m = 0.5 * options.lane_spacing_m + 0.05;
+  for (const std::string& name : world_names()) {
+    const World world = must(make_world(name, {}, Random(2)));
+    const auto routes = must(survey_routes(world, options));
+    EXPECT_GT(covered_share(world, routes, options.edge_margin_m, reach_m), 0.97) << name;
   }
 }
 

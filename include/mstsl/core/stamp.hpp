@@ -3,6 +3,7 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
+#include <limits>
 
 namespace mstsl {
 
@@ -19,9 +20,23 @@ struct Stamp {
   double seconds() const { return static_cast<double>(ns) * 1e-9; }
 
   friend constexpr auto operator<=>(const Stamp&, const Stamp&) = default;
-  friend Stamp operator+(Stamp stamp, double seconds) { return {stamp.ns + std::llround(seconds * 1e9)}; }
-  /// Seconds from b to a.
-  friend double operator-(Stamp a, Stamp b) { return static_cast<double>(a.ns - b.ns) * 1e-9; }
+  /// Ends at the first or last stamp there is rather than wrap around; expects |seconds| < 9e9.
+  friend Stamp operator+(Stamp stamp, double seconds) {
+    constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min(),
+                           kLast = std::numeric_limits<std::int64_t>::max();
+    const std::int64_t added = std::llround(seconds * 1e9);
+    if (added > 0 && stamp.ns > kLast - added) return {kLast};
+    if (added < 0 && stamp.ns < kFirst - added) return {kFirst};
+    return {stamp.ns + added};
+  }
+  /// Seconds from b to a, for any two stamps: damaged logs hold the most distant ones.
+  friend double operator-(Stamp a, Stamp b) {
+    const auto gap = [](Stamp late, Stamp early) {
+      return static_cast<double>(static_cast<std::uint64_t>(late.ns) - static_cast<std::uint64_t>(early.ns)) *
+             1e-9;
+    };
+    return a >= b ? gap(a, b) : -gap(b, a);
+  }
 };
 
 }  // namespace mstsl

@@ -16,6 +16,11 @@ struct Segment {
 
 double length(const Segment& segment);
 
+/// The third component of the cross product: twice the signed area between two vectors.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// The point at a share (0 at a, 1 at b) of the way along.
 Eigen::Vector2d point_along(const Segment& segment, double fraction);
 

@@ -80,7 +80,7 @@ struct MessageIndex {
 struct ChunkIndex {
   std::uint64_t start_time = 0, end_time = 0;
   std::uint64_t chunk_offset = 0, chunk_size = 0;
-  std::map<std::uint16_t, std::uint64_t> message_index_offsets;  ///< channels that have messages in the chunk
+  std::map<std::uint16_t, std::uint64_t> message_index_offsets{};  ///< channels with messages in the chunk
   std::uint64_t message_index_size = 0;
   std::string compression;
   std::uint64_t compressed_size = 0, uncompressed_size = 0;

@@ -1,7 +1,16 @@
 #include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "mstsl/localize/two_step.hpp"
+
+#include "../../localize/hand_made_world.hpp"
 #include "../recording_support.hpp"
 #include "reference_drive.hpp"
 
@@ -78,6 +87,61 @@ INSTANTIATE_TEST_SUITE_P(ByRosbag, OtherPeoplesLogs, testing::Values("none.bag",
 INSTANTIATE_TEST_SUITE_P(ByNpm, OtherPeoplesLogs,
                          testing::Values("none.mcap", "flat.mcap", "unindexed.mcap", "lz4.mcap", "zstd.mcap"),
                          name_of);
+
+std::vector<SensorEvent> drive_to_localize(const HandMadeWorld& world) {
+  return events_of(world, {{3.0, 1.0, radians(30)}, radians(-30), 0.0, 6.0}, Rig{});
+}
+
+std::string line_of(const SensorEvent& event) {
+  const Stamp stamp = stamp_of(event);
+  std::string values;
+  if (const auto* odometry = std::get_if<OdometryReading>(&event)) {
+    const Pose2& pose = odometry->odom_T_base;
+    values = fmt::format(R"("odometry",{},{},{},{},{})", stamp.ns / 1'000'000'000, stamp.ns % 1'000'000'000,
+                         pose.x, pose.y, pose.yaw);
+  } else if (const auto* field = std::get_if<FieldReading>(&event)) {
+    const Eigen::Vector3d& b = field->sensor_field_uT;
+    values = fmt::format(R"("field",{},{},{},{},{})", stamp.ns / 1'000'000'000, stamp.ns % 1'000'000'000,
+                         b.x(), b.y(), b.z());
+  } else if (const auto* scan = std::get_if<LaserScan>(&event)) {
+    std::vector<float> ranges_m = scan->ranges_m;  // JSON has no infinity; beyond the limit is no return, too
+    for (float& range_m : ranges_m)
+      if (!std::isfinite(range_m)) range_m = 1e3F;
+    values = fmt::format(R"("scan",{},{},{},{},{},{},[{}])", stamp.ns / 1'000'000'000,
+                         stamp.ns % 1'000'000'000, scan->angle_min_rad, scan->angle_increment_rad,
+                         scan->range_min_m, scan->range_max_m, fmt::join(ranges_m, ","));
+  }
+  return "[" + values + "]\n";
+}
+
+TEST(OurDrive, IsDumpedForOthersToWriteAsLogs) {
+  std::filesystem::create_directories(kFolder);
+  std::ofstream file(kFolder / "run.jsonl");
+  for (const SensorEvent& event : drive_to_localize(HandMadeWorld())) file << line_of(event);
+  ASSERT_TRUE(file.flush());
+}
+
+Estimate localized(const HandMadeWorld& world, const std::vector<SensorEvent>& events) {
+  TwoStep localizer(world.maps, Rig{});
+  for (const SensorEvent& event : events) feed(localizer, event);
+  return localizer.estimate();
+}
+
+class OtherPeoplesRuns : public testing::TestWithParam<const char*> {};
+
+TEST_P(OtherPeoplesRuns, AreLocalizedAsTheSameEventsAre) {
+  const std::filesystem::path file = kFolder / GetParam();
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " was not written; see the test that writes it";
+  const HandMadeWorld world;
+  const Estimate expected = localized(world, drive_to_localize(world));
+  const Estimate found = localized(world, play_all({file}).events);
+  ASSERT_TRUE(expected.map_T_base);
+  ASSERT_TRUE(found.map_T_base);
+  EXPECT_LT(distance(*found.map_T_base, *expected.map_T_base), 1e-4);  // ROS messages hold angles as floats
+  EXPECT_NEAR(found.probability, expected.probability, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(By, OtherPeoplesRuns, testing::Values("run.bag", "run.mcap"), name_of);
 
 TEST(OurLog, IsWrittenForOthersToRead) {
   std::filesystem::create_directories(kFolder);

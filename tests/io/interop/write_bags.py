@@ -1,7 +1,10 @@
 """Writes the reference drive (see reference_drive.hpp) as ROS 1 bags with Debian's python3-rosbag.
 
-usage: write_bags.py FOLDER; makes none.bag, lz4.bag and bz2.bag. Exit status 77: python3-rosbag is not installed.
+usage: write_bags.py FOLDER; makes none.bag, lz4.bag and bz2.bag, and run.bag of the drive in run.jsonl.
+Exit status 77: python3-rosbag is not installed.
 """
+import json
+import math
 import pathlib
 import sys
 
@@ -103,9 +106,39 @@ def drive():
         yield "/scan", scan, stamp
 
 
+def recorded(file):
+    """The messages of a drive that a test wrote as lines [kind, seconds, nanoseconds, numbers...]."""
+    start = genpy.Time(1, 0)
+    tf = CLASSES["tf2_msgs/TFMessage"]()
+    tf.transforms = [transform(start, "base_link", child, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+                     for child in ("laser", "imu_link")]
+    yield "/tf_static", tf, start
+    for line in file.read_text().splitlines():
+        kind, seconds, nanoseconds, *values = json.loads(line)
+        stamp = genpy.Time(seconds, nanoseconds)
+        if kind == "odometry":
+            message = with_header("nav_msgs/Odometry", stamp, "odom")
+            message.child_frame_id = "base_link"
+            set_fields(message.pose.pose.position, x=values[0], y=values[1])
+            set_fields(message.pose.pose.orientation, z=math.sin(values[2] / 2), w=math.cos(values[2] / 2))
+            yield "/odom", message, stamp
+        elif kind == "field":
+            message = with_header("sensor_msgs/MagneticField", stamp, "imu_link")
+            set_fields(message.magnetic_field, x=1e-6 * values[0], y=1e-6 * values[1], z=1e-6 * values[2])
+            yield "/imu/mag", message, stamp
+        elif kind == "scan":
+            message = with_header("sensor_msgs/LaserScan", stamp, "laser")
+            set_fields(message, angle_min=values[0], angle_increment=values[1], range_min=values[2],
+                       range_max=values[3], ranges=values[4])
+            yield "/scan", message, stamp
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
+    with rosbag.Bag(str(folder / "run.bag"), "w", compression="lz4") as bag:
+        for topic, message, stamp in recorded(folder / "run.jsonl"):
+            bag.write(topic, message, stamp)
     for compression in ("none", "lz4", "bz2"):
         with rosbag.Bag(str(folder / f"{compression}.bag"), "w", compression=compression, chunk_threshold=20000) as bag:
             for topic, message, stamp in drive():

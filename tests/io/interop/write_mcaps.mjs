@@ -1,13 +1,14 @@
 // Writes the reference drive (see reference_drive.hpp) as MCAP with @mcap/core and @foxglove/rosmsg2-serialization.
 //
 // usage: node write_mcaps.mjs FOLDER
-// Makes none.mcap, lz4.mcap and zstd.mcap (chunks), flat.mcap (no chunks), unindexed.mcap (chunks, but no summary).
+// Makes none.mcap, lz4.mcap and zstd.mcap (chunks), flat.mcap (no chunks), unindexed.mcap (chunks, but no summary),
+// and run.mcap of the drive in run.jsonl.
 import { McapWriter } from "@mcap/core";
 import { parse } from "@foxglove/rosmsg";
 import { MessageWriter } from "@foxglove/rosmsg2-serialization";
 import zstd from "@foxglove/wasm-zstd";
 import lz4 from "lz4js";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 const SEPARATOR = "=".repeat(80);
@@ -89,6 +90,36 @@ function* drive() {
   }
 }
 
+// The messages of a drive that a test wrote as lines [kind, seconds, nanoseconds, numbers...].
+function* recorded(path) {
+  const still = { translation: vector(0, 0, 0), rotation: straight };
+  const fixed = (child) => ({ header: header(0, "base_link"), child_frame_id: child, transform: still });
+  yield ["/tf_static", "tf2_msgs/TFMessage", 0, { transforms: [fixed("laser"), fixed("imu_link")] }];
+  for (const line of readFileSync(path, "utf8").trim().split("\n")) {
+    const [kind, sec, nanosec, ...v] = JSON.parse(line);
+    const at = (frame) => ({ stamp: { sec, nanosec }, frame_id: frame });
+    if (kind === "odometry") {
+      const orientation = { x: 0, y: 0, z: Math.sin(v[2] / 2), w: Math.cos(v[2] / 2) };
+      yield ["/odom", "nav_msgs/Odometry", 0, {
+        header: at("odom"),
+        child_frame_id: "base_link",
+        pose: { pose: { position: vector(v[0], v[1], 0), orientation }, covariance: zeros(36) },
+        twist: { twist: { linear: vector(0, 0, 0), angular: vector(0, 0, 0) }, covariance: zeros(36) },
+      }];
+    } else if (kind === "field") {
+      yield ["/imu/mag", "sensor_msgs/MagneticField", 0, {
+        header: at("imu_link"), magnetic_field: vector(1e-6 * v[0], 1e-6 * v[1], 1e-6 * v[2]),
+        magnetic_field_covariance: zeros(9),
+      }];
+    } else if (kind === "scan") {
+      yield ["/scan", "sensor_msgs/LaserScan", 0, {
+        header: at("laser"), angle_min: v[0], angle_max: 0, angle_increment: v[1], time_increment: 0, scan_time: 0,
+        range_min: v[2], range_max: v[3], ranges: v[4], intensities: [],
+      }];
+    }
+  }
+}
+
 class MemoryFile {
   pieces = [];
   size = 0n;
@@ -99,13 +130,13 @@ class MemoryFile {
   }
 }
 
-async function writeMcap(path, options) {
+async function writeMcap(path, options, messages = drive()) {
   const file = new MemoryFile();
   const writer = new McapWriter({ writable: file, chunkSize: 20_000, ...options });
   await writer.start({ profile: "ros2", library: "interop" });
   const channels = new Map();
   let sequence = 0;
-  for (const [topic, type, step, message] of drive()) {
+  for (const [topic, type, step, message] of messages) {
     if (!channels.has(topic)) {
       const text = schemaText(type);
       const schemaId = await writer.registerSchema({
@@ -115,7 +146,7 @@ async function writeMcap(path, options) {
       channels.set(topic, { id, serializer: new MessageWriter(parse(text, { ros2: true })) });
     }
     const { id, serializer } = channels.get(topic);
-    const { sec, nanosec } = stampOf(step);
+    const { sec, nanosec } = message.header?.stamp ?? stampOf(step);
     const logTime = BigInt(sec) * 1_000_000_000n + BigInt(nanosec);
     await writer.addMessage({
       channelId: id, sequence: sequence++, logTime, publishTime: logTime, data: serializer.writeMessage(message),
@@ -138,6 +169,6 @@ await writeMcap(join(folder, "unindexed.mcap"), without);
 await writeMcap(join(folder, "lz4.mcap"), {
   compressChunk: (data) => ({ compression: "lz4", compressedData: Uint8Array.from(lz4.compress(data)) }),
 });
-await writeMcap(join(folder, "zstd.mcap"), {
-  compressChunk: (data) => ({ compression: "zstd", compressedData: zstd.compress(data) }),
-});
+const byZstd = { compressChunk: (data) => ({ compression: "zstd", compressedData: zstd.compress(data) }) };
+await writeMcap(join(folder, "zstd.mcap"), byZstd);
+await writeMcap(join(folder, "run.mcap"), byZstd, recorded(join(folder, "run.jsonl")));
