@@ -59,7 +59,9 @@ void Joint::observe(const OdometryReading& odometry) {
 }
 
 void Joint::observe(const FieldReading& field) {
-  if (!field.sensor_field_uT.allFinite() || (last_field_ && field.stamp <= *last_field_)) {
+  // No magnetometer reads more than some thousands of uT; a larger number is in another unit, or noise.
+  constexpr double kLargest_uT = 1e5;
+  if (!(field.sensor_field_uT.norm() < kLargest_uT) || (last_field_ && field.stamp <= *last_field_)) {
     ++counts_.bad_field;
     return;
   }

@@ -1,0 +1,137 @@
+#include "mstsl/localize/joint/mode.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "mstsl/core/angles.hpp"
+#include "mstsl/core/random.hpp"
+
+#include "../../../src/localize/joint/kalman.hpp"
+#include "../hand_made_world.hpp"
+
+namespace mstsl::joint {
+namespace {
+
+Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
+  return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+}
+
+/// A station measured without error at a pose.
+Station station_at(const test::HandMadeWorld& world, const Pose2& map_T_base,
+                   const Eigen::Vector3d& bias_uT) {
+  Station station;
+  station.base_field_uT =
+      world.field_at({}, map_T_base, Eigen::Isometry3d::Identity()).sensor_field_uT + bias_uT;
+  return station;
+}
+
+double least_eigenvalue(const Covariance& covariance) {
+  return Eigen::SelfAdjointEigenSolver<Covariance>(covariance, Eigen::EigenvaluesOnly).eigenvalues()(0);
+}
+
+TEST(MapError, IsStationaryAndCorrelatedAsMatern) {
+  const Eigen::Vector3d variance(4, 9, 1);
+  Vector state = Vector::Zero();
+  Covariance covariance = Covariance::Zero();
+  forget_map_error(state, covariance, variance);
+  // The covariance of the error now with that after a way, by carrying a unit of it along.
+  for (const double way_m : {0.05, 0.25, 1.0, 3.0}) {
+    Covariance after = covariance;
+    Vector moved = state;
+    moved(kMapError) = 1.0;
+    let_wander(moved, after, way_m, 0.58, variance);
+    EXPECT_LT((after - covariance).norm(), 1e-9);
+    const double a = std::sqrt(3.0) * way_m / 0.58;
+    EXPECT_NEAR(moved(kMapError), (1 + a) * std::exp(-a), 1e-12);
+  }
+  const double quarter = std::sqrt(3.0) * 0.25 / FieldModel{}.error_length_m, one = 4 * quarter;
+  EXPECT_NEAR((1 + quarter) * std::exp(-quarter), 0.85, 0.05);  // as was measured
+  EXPECT_NEAR((1 + one) * std::exp(-one), 0.2, 0.02);
+}
+
+TEST(MapError, DoesNotCareInHowManyStepsAWayIsDriven) {
+  Vector once = Vector::Random(), often = once;
+  Covariance p = Covariance::Random();
+  p = p * p.transpose();
+  Covariance q = p;
+  let_wander(once, p, 0.6, 0.5, {1, 2, 3});
+  for (int i = 0; i < 6; ++i) let_wander(often, q, 0.1, 0.5, {1, 2, 3});
+  EXPECT_LT((once - often).norm(), 1e-12);
+  EXPECT_LT((p - q).norm(), 1e-9);
+}
+
+TEST(Mode, LearnsTheBiasOfTheMagnetometerFromATurn) {
+  const test::HandMadeWorld world;
+  const Eigen::Vector3d bias_uT(4, -6, 3);
+  const Pose2 start{5, 1, 0};
+  Mode mode = make_mode(start, diagonal(0.02, 0.01), {});
+  for (int i = 0; i <= 60; ++i) {
+    const Pose2 now = start * Pose2{0.05 * i, 0, radians(6) * i};
+    if (i > 0)
+      predict(mode, between(start * Pose2{0.05 * (i - 1), 0, radians(6) * (i - 1)}, now),
+              diagonal(1e-3, 1e-3), 0);
+    Station station = station_at(world, now, bias_uT);
+    if (i > 0) station.since_last_m = 0.05;
+    update_by_field(mode, station, world.maps->field_cells, {0, 0}, {});
+    update_by_scan(mode, {now, diagonal(0.02, 0.005).inverse(), 1.0});
+  }
+  EXPECT_LT((mode.state.segment<3>(kBias) - bias_uT).norm(), 1.0);
+  EXPECT_GT(least_eigenvalue(mode.covariance), 0.0);
+}
+
+TEST(Mode, IsDrawnToWhereTheFieldWasRead) {
+  const test::HandMadeWorld world;
+  const Pose2 truth{6, 1, 0.3};
+  Mode mode = make_mode(truth * Pose2{0.12, -0.08, 0.0}, diagonal(0.12, 0.01),
+                        {.bias_sigma_uT = 0.1, .motor_sigma_uT = 0.1});
+  const double before_m = distance(mode.map_T_base, truth);
+  update_by_field(mode, station_at(world, truth, {0, 0, 0}), world.maps->field_cells, {0, 0}, {});
+  EXPECT_LT(distance(mode.map_T_base, truth), 0.6 * before_m);
+}
+
+TEST(Mode, AtTheRightPlaceExplainsAWayBetterThanAtWrongOnes) {
+  const test::HandMadeWorld world;
+  const auto log_density = [&](const Pose2& from, const Pose2& truth) {
+    Mode mode = make_mode(from, diagonal(0.05, 0.02), {});
+    double sum = 0;
+    for (int i = 0; i < 15; ++i) {
+      Station station = station_at(world, truth * Pose2{0.1 * i, 0, 0}, {5, 5, -5});
+      if (i > 0) station.since_last_m = 0.1, predict(mode, {0.1, 0, 0}, diagonal(0.01, 0.005), 0);
+      sum += update_by_field(mode, station, world.maps->field_cells, {0, 0}, {});
+    }
+    return sum;
+  };
+  const Pose2 truth{4, 1, 0};
+  const double right = log_density(truth, truth);
+  for (const Pose2& wrong : {Pose2{12, 1, 0}, Pose2{18, 9, kPi}, Pose2{1, 5, kPi / 2}, Pose2{8, 1, kPi}})
+    EXPECT_GT(right, log_density(wrong, truth) + 5) << wrong.x;
+}
+
+TEST(Mode, SurvivesChangedSteelByAJump) {
+  const test::HandMadeWorld world;
+  const Pose2 start{4, 1, 0};
+  Mode mode = make_mode(start, diagonal(0.05, 0.02), {});
+  for (int i = 0; i < 40; ++i) {
+    // Between 1 and 2 m the field is off by 15 uT all of a sudden.
+    const Eigen::Vector3d changed = i >= 10 && i < 20 ? Eigen::Vector3d(15, -9, 12) : Eigen::Vector3d::Zero();
+    Station station = station_at(world, start * Pose2{0.1 * i, 0, 0}, changed);
+    if (i > 0) station.since_last_m = 0.1, predict(mode, {0.1, 0, 0}, diagonal(0.01, 0.005), 0);
+    update_by_field(mode, station, world.maps->field_cells, {0, 0}, {});
+    update_by_scan(
+        mode, {start * Pose2{0.1 * i, 0, 0}, Eigen::Vector3d(0, 1e4, 1e4).asDiagonal().toDenseMatrix(), 1.0});
+  }
+  EXPECT_LT(distance(mode.map_T_base, start * Pose2{3.9, 0, 0}), 0.15);
+}
+
+TEST(Mode, TakesFromAScanOnlyWhatItFixes) {
+  Mode mode = make_mode({1, 2, 0}, diagonal(0.3, 0.1), {});
+  // Along a corridor in x nothing is known.
+  update_by_scan(mode, {{1.2, 2.1, 0.05}, Eigen::Vector3d(0, 1e6, 1e6).asDiagonal().toDenseMatrix(), 1.0});
+  EXPECT_NEAR(mode.covariance(0, 0), 0.09, 1e-6);
+  EXPECT_LT(mode.covariance(1, 1), 1e-5);
+  EXPECT_NEAR(mode.map_T_base.y, 2.1, 1e-12);
+  EXPECT_GE(least_eigenvalue(mode.covariance), -1e-9);
+}
+
+}  // namespace
+}  // namespace mstsl::joint
