@@ -8,7 +8,8 @@
 
 namespace mstsl::app {
 
-/// An error where writing an output would destroy an input: a slip in a command line must not cost a recording.
+/// An error where writing an output would destroy an input: a slip in a command line must not cost a
+/// recording.
 std::optional<Error> overwritten_input(const std::vector<std::filesystem::path>& outputs,
                                        const std::vector<std::filesystem::path>& inputs);
 

@@ -20,7 +20,8 @@ constexpr std::size_t kBlockSize = 1 << 20;
 Result<InputFile> InputFile::open(const std::filesystem::path& path) {
   InputFile file;
   file.name_ = path.string();
-  file.descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Not to wait for the writer of a pipe: a log is read from both ends.
+  file.descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file.descriptor_ < 0)
     return Error(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
   struct stat status {};

@@ -203,6 +203,15 @@ TEST(BadInput, AnInterruptEndsInOrder) {
   expect_refusal(printed, folder, "stopped");
 }
 
+TEST(BadInput, APipeThatNobodyWritesToIsRefusedOrInterrupted) {
+  const std::string pipe = Site::get().path("pipe").string();
+  ASSERT_EQ(run_shell("mkfifo " + pipe).exit_status, 0);
+  expect_refusal(run_app(Site::get().localize("pipe", "pipe.jsonl")), pipe, "not a regular file");
+  expect_refusal(run_shell("timeout --preserve-status -s INT 2 " + std::string(MSTSL_APP) +
+                           " localize --map " + pipe + " --field x.nc -o /dev/null x.mcap"),
+                 pipe, "Interrupted");
+}
+
 TEST(BadInput, AnOutputThatIsAnInputIsRefusedAndTheInputKept) {
   const std::string before = content_of(Site::get().path("run.mcap"));
   expect_refusal(run_app(Site::get().localize("run.mcap", "run.mcap")), "run.mcap", "overwritten");
