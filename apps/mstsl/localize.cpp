@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 struct Wish {
   fs::path map;
   fs::path field;
-  std::string method = "two-step";
+  std::string method = "joint";
   std::size_t hypotheses = DistinctOptions{}.count;
   double localized_from = JointOptions{}.localized_from;
   fs::path output;

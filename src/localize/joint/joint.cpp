@@ -196,23 +196,6 @@ Estimate Joint::estimate() const {
   return estimate;
 }
 
-LocalizerReport Joint::report() const {
-  LocalizerReport report;
-  const auto count = [&](const char* what, std::uint64_t n) {
-    if (n > 0) report.counts[what] = n;
-  };
-  count("scans out of order", counts_.late_scans);
-  count("scans without enough returns", counts_.blind_scans);
-  count("scans without odometry", counts_.scans_without_odometry);
-  count("field readings not finite or out of order", counts_.bad_field);
-  count("field readings without odometry", counts_.field_without_odometry);
-  count("field stations", counts_.stations);
-  count("searches over the whole map", counts_.searches);
-  count("searches cut short", counts_.cut_searches);
-  count("times lost", counts_.times_lost);
-  return report;
-}
-
 std::optional<Error> invalid(const JointOptions& options) {
   if (!(options.localized_from > 0.5 && options.localized_from < 1.0))
     return Error("the probability from which a pose is published must lie between 0.5 and 1");
