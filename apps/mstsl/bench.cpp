@@ -11,6 +11,7 @@
 #include "mstsl/eval/protocol_report.hpp"
 #include "mstsl/io/atomic_file.hpp"
 
+#include "bench_hard.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "session.hpp"
@@ -31,6 +32,7 @@ struct Wish {
   double bias_uT = sim::MagnetometerOptions{}.bias_sigma_uT;
   double moved = PaperProtocolOptions{}.moved_fraction;
   std::optional<std::size_t> hypotheses;
+  HardWish hard;
 };
 
 PaperProtocolOptions options_of(const Session& session, const Wish& wish, const std::string& world) {
@@ -63,6 +65,7 @@ Result<void> write_report(const ProtocolResult& result, const fs::path& folder) 
 }
 
 Result<Exit> bench(const Session& session, const Wish& wish) {
+  if (wish.protocol == "hard") return bench_hard(session, wish.hard, wish.runs, wish.output);
   const std::vector<std::string> worlds = wish.world == "both"
                                               ? std::vector<std::string>{"corridor", "carpark"}
                                               : std::vector<std::string>{wish.world};
@@ -94,8 +97,10 @@ void add_bench(CLI::App& app, Session& session) {
   auto wish = std::make_shared<Wish>();
   CLI::App* command = app.add_subcommand("bench", "Measure the methods by a fixed protocol");
   command
-      ->add_option("--protocol", wish->protocol, "paper: ten starts driven ten times each, as in the paper")
-      ->check(CLI::IsMember({"paper"}))
+      ->add_option("--protocol", wish->protocol,
+                   "paper: ten starts driven ten times each, as in the paper; hard: symmetric buildings and "
+                   "whatever disturbs a robot")
+      ->check(CLI::IsMember({"paper", "hard"}))
       ->capture_default_str();
   command->add_option("-o,--output", wish->output, "Folder for tables, runs and curves")->required();
   command->add_option("--world", wish->world, "Where")
@@ -108,8 +113,8 @@ void add_bench(CLI::App& app, Session& session) {
   command->add_option("--waypoints", wish->waypoints, "Starts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--runs", wish->runs, "Runs from each start")
-      ->check(CLI::Range(1, 1000))
+  command->add_option("--runs", wish->runs, "Runs from each start; hard: of each building and case")
+      ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command
       ->add_option("--fingerprints", wish->fingerprints,
@@ -128,6 +133,7 @@ void add_bench(CLI::App& app, Session& session) {
       ->add_option("-k,--hypotheses", wish->hypotheses,
                    "Initial hypotheses kept (default: 5 in the corridor, 8 in the car park)")
       ->check(CLI::Range(1, 1000));
+  add_hard_options(*command, wish->hard);
   add_common_options(*command, session);
   command->callback([wish, &session] { session.work = [wish, &session] { return bench(session, *wish); }; });
 }

@@ -51,7 +51,7 @@ std::vector<Fingerprint> collect(const sim::World& world, const sim::Route& rout
       [&](const PoseReading& truth) {
         collector.observe(PoseReading{truth.stamp, error.applied_to(truth.map_T_base)});
       }};
-  sim::drive(world, robot, route, Stamp{}, random.fork(kDrive), sinks);
+  sim::drive(world, robot, route, Stamp{}, random.fork(kDrive), sinks, options.field);
   return collector.finish();
 }
 

@@ -5,6 +5,7 @@
 
 #include "built_in_worlds.hpp"
 #include "steelwork.hpp"
+#include "storey.hpp"
 #include "walls.hpp"
 
 /// An office loop after the real corridor loop (61 x 22 m): two long corridors, two short ones with a lift
@@ -93,24 +94,8 @@ void add_ring(WorldPlan& plan, std::vector<Wall> half, const WorldOptions& optio
   for (const Wall& wall : half) furnish(plan, wall, furnishing, random);
 }
 
-/// Floor, ceiling and the trays under it, corridor by corridor.
 void add_corridor_steel(WorldPlan& plan, Random& random) {
-  constexpr double kBeside_m = 1.0;  // slabs and beams run on behind the walls
-  constexpr double kFloor_m = -0.06, kCeiling_m = 3.2;
-  for (const Lane& lane : plan.lanes) {
-    const Vector2d along = lane.center.b - lane.center.a;
-    const Pose2 start = Pose2::from(lane.center.a, std::atan2(along.y(), along.x()));
-    const double half = 0.5 * lane.free_width_m + kBeside_m;
-    const AlignedBox2d area(Vector2d(-half, -half), Vector2d(along.norm() + half, half));
-    for (const double z : {kFloor_m, kCeiling_m}) {
-      add_slab(plan.steel, start, area, z, random);
-      add_beams(plan.steel, start, area, z, 0.5 * kBay_m, random);
-    }
-    for (const double side : {-0.3, 0.35})
-      add_tray(plan.steel,
-               start * Segment{{0, side * lane.free_width_m}, {along.norm(), side * lane.free_width_m}}, 2.6,
-               random);
-  }
+  add_storey(plan, 0.5 * kBay_m, random);
   constexpr double kShaft_m = 2.0;
   for (const double side : {-1.0, 1.0})
     for (const double y : {-1.2, 1.2}) {
@@ -150,6 +135,16 @@ WorldPlan plan_corridor(const WorldOptions& options, const Vector2d& size_m, Ran
   add_ring(plan, inner_half(l), options, {2.8, kBay_m, false, 0.0, 2.2}, random);
   add_corridor_steel(plan, random);
   add_spots(plan, l);
+  return plan;
+}
+
+WorldPlan plan_symmetric_loop(const WorldOptions& options, const Vector2d& size_m, Random& random) {
+  WorldOptions exact = options;
+  exact.asymmetry_m = 0.0;
+  WorldPlan plan = plan_corridor(exact, size_m, random);
+  plan.name = "symmetric-loop";
+  // What a lidar could see would break the symmetry; what it cannot see stays.
+  std::erase_if(plan.spots, [](const Spot& spot) { return spot.kind != ThingKind::kHiddenSteel; });
   return plan;
 }
 

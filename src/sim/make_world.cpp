@@ -18,10 +18,15 @@ struct Kind {
 };
 
 /// Sizes: the corridor after the real loop, the others as the buildings they stand for commonly are.
-const std::array<Kind, 4> kKinds{{{"corridor", {60, 26}, {30, 16}, plan_corridor},
+const std::array<Kind, 9> kKinds{{{"corridor", {60, 26}, {30, 16}, plan_corridor},
                                   {"carpark", {70, 40}, {36, 24}, plan_carpark},
                                   {"warehouse", {60, 40}, {18, 20}, plan_warehouse},
-                                  {"office-wing", {54, 13}, {15, 9}, plan_office_wing}}};
+                                  {"office-wing", {54, 13}, {15, 9}, plan_office_wing},
+                                  {"symmetric-loop", {60, 26}, {30, 16}, plan_symmetric_loop},
+                                  {"aisles", {42, 30}, {16, 16}, plan_aisles},
+                                  {"pillar-hall", {36, 30}, {18, 18}, plan_pillar_hall},
+                                  {"h-wing", {44, 40}, {16, 16}, plan_h_wing},
+                                  {"office", {44, 13}, {16, 9}, plan_office}}};
 
 std::string known_names() {
   std::string list;

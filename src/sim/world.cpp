@@ -98,11 +98,24 @@ World::World(WorldPlan plan)
       clearance_m_(clearance_of(plan_, surfaces_)),
       on_lane_(lane_cells(plan_, clearance_m_)) {}
 
-World on_another_day(const World& world, double moved_fraction, const Random& random) {
+namespace {
+
+/// A spot decided anew that looks as it did: its steel is that of the new thing, its outline the old one's.
+void settle_steel(Spot& spot, Random& random) {
+  std::vector<Segment> outline = spot.thing ? spot.thing->outline : std::vector<Segment>{};
+  settle(spot, random);
+  if (!spot.thing && !outline.empty()) spot.thing.emplace();
+  if (spot.thing) spot.thing->outline = std::move(outline);
+}
+
+}  // namespace
+
+World on_another_day(const World& world, double moved_fraction, const Random& random, Change change) {
   WorldPlan plan = world.plan();
   for (std::size_t i = 0; i < plan.spots.size(); ++i) {
     Random own = random.fork(i);
-    if (own.chance(moved_fraction)) settle(plan.spots[i], own);
+    if (!own.chance(moved_fraction)) continue;
+    change == Change::kThings ? settle(plan.spots[i], own) : settle_steel(plan.spots[i], own);
   }
   return World(std::move(plan));
 }

@@ -6,6 +6,7 @@
 #include "mstsl/core/random.hpp"
 #include "mstsl/core/result.hpp"
 #include "mstsl/magnetic/fingerprint.hpp"
+#include "mstsl/sim/drive.hpp"
 #include "mstsl/sim/robot.hpp"
 #include "mstsl/sim/survey.hpp"
 #include "mstsl/sim/world.hpp"
@@ -20,6 +21,8 @@ struct SimulatedSurveyOptions {
   double position_sigma_m = 0.03;
   /// Way over which that error forgets itself, in m.
   double position_error_length_m = 1.0;
+  /// The field that the magnetometer meets; the world's own where empty.
+  sim::FieldSource field;
   Threads threads;
 };
 

@@ -103,7 +103,8 @@ struct WorldOptions {
   double car_occupancy = 0.6;  ///< share of bays with a parked car
 };
 
-/// The built-in worlds: corridor, carpark, warehouse, office-wing.
+/// The built-in worlds: corridor, carpark, warehouse, office-wing, and those of the hard protocol:
+/// symmetric-loop, aisles, pillar-hall, h-wing, office.
 std::vector<std::string> world_names();
 
 /// A world by name. Errors: a name that is not there (the message lists those that are), a size too small to
@@ -114,7 +115,14 @@ Result<World> make_world(std::string_view name, const WorldOptions& options, con
 /// steel as a building of that outline has it. Errors: a map without free cells wide enough to drive on.
 Result<World> world_from_map(const OccupancyGrid& map, const WorldOptions& options, const Random& random);
 
+/// What changes at a spot that is decided anew.
+enum class Change {
+  kThings,     ///< what stands there: seen by the lidar and by the magnetometer
+  kSteelOnly,  ///< its steel; the outline stays (other goods in the same cupboard)
+};
+
 /// The same building on a later day: each spot is, with probability `moved_fraction`, decided anew.
-World on_another_day(const World& world, double moved_fraction, const Random& random);
+World on_another_day(const World& world, double moved_fraction, const Random& random,
+                     Change change = Change::kThings);
 
 }  // namespace mstsl::sim

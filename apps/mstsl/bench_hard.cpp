@@ -1,0 +1,127 @@
+#include "bench_hard.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "mstsl/eval/hard_protocol.hpp"
+#include "mstsl/eval/hard_report.hpp"
+#include "mstsl/io/atomic_file.hpp"
+#include "mstsl/sim/world.hpp"
+
+#include "interrupt.hpp"
+#include "progress.hpp"
+
+namespace mstsl::app {
+namespace {
+
+/// A hash (FNV-1a) of this very program: runs of another program are not this one's.
+std::string build_hash() {
+  std::ifstream self("/proc/self/exe", std::ios::binary);
+  std::uint64_t hash = 14695981039346656037u;
+  std::vector<char> block(1 << 16);
+  while (self.read(block.data(), static_cast<std::streamsize>(block.size())) || self.gcount() > 0)
+    for (std::streamsize i = 0; i < self.gcount(); ++i)
+      hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 1099511628211u;
+  return fmt::format("{:016x}", hash);
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+HardProtocolOptions options_of(const Session& session, const HardWish& wish, int runs,
+                               const std::filesystem::path& folder) {
+  HardProtocolOptions options;
+  options.methods = wish.methods;
+  if (!wish.worlds.empty()) options.worlds = wish.worlds;
+  options.disturbances = wish.cases;
+  if (wish.cases == std::vector<std::string>{"each"}) options.disturbances = disturbance_names();
+  options.set = wish.set == "kidnap" ? CaseSet::kKidnap : wish.set == "long" ? CaseSet::kLong : CaseSet::kFix;
+  options.runs = runs;
+  options.buildings = wish.buildings;
+  options.length_m = wish.length_m;
+  options.scan_rate_hz = wish.scan_rate_hz;
+  options.beams = wish.beams;
+  options.seed = session.seed;
+  options.threads = session.threads;
+  options.folder = folder;
+  options.build = build_hash();
+  return options;
+}
+
+}  // namespace
+
+void add_hard_options(CLI::App& command, HardWish& wish) {
+  const std::string group = "Protocol hard";
+  command.add_option("--method", wish.methods, "Methods, each on the same events")
+      ->delimiter(',')
+      ->check(CLI::IsMember(method_names()))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--worlds", wish.worlds, "Buildings (default: the five of the protocol)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(sim::world_names()))
+      ->group(group);
+  std::vector<std::string> cases = disturbance_names();
+  cases.emplace_back("each");
+  command.add_option("--cases", wish.cases, "Disturbances; each: all of these, one by one")
+      ->delimiter(',')
+      ->check(CLI::IsMember(cases))
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--set", wish.set,
+                  "fix: switched on somewhere; kidnap: and carried away; long: see --length")
+      ->check(CLI::IsMember({"fix", "kidnap", "long"}))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--buildings", wish.buildings, "Buildings of each world, with other steel")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--length", wish.length_m, "Metres driven in a run")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--scan-rate", wish.scan_rate_hz, "Scans a second")
+      ->check(CLI::Range(0.5, 100.0))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--beams", wish.beams, "Beams of a scan")
+      ->check(CLI::Range(2, 100000))
+      ->capture_default_str()
+      ->group(group);
+}
+
+Result<Exit> bench_hard(const Session& session, const HardWish& wish, int runs,
+                        const std::filesystem::path& folder) {
+  HardProtocolOptions options = options_of(session, wish, runs, folder);
+  std::optional<Progress> bar;
+  bar.emplace("hard protocol", session.quiet);
+  options.progress = [&](const char*, double share) {
+    bar->show(share);
+    return !interrupted();
+  };
+  const auto records = run_hard_protocol(options);
+  if (!records) return records.error();
+  bar.reset();
+  const HardHead head{MSTSL_COMMIT, options.build, options.seed, peak_memory_mb()};
+  const std::string text = hard_text(*records), json = hard_json(*records, head);
+  for (const auto& [name, content] :
+       {std::pair{"table.txt", text}, {"results.json", json}, {"cost.json", hard_cost_json(*records, head)}})
+    if (const Result<void> written = io::write_file(folder / name, content); !written) return written.error();
+  if (session.json)
+    fmt::print("{}", json);
+  else if (!session.quiet)
+    fmt::print("{}\n{}: table.txt, results.json, cost.json, runs.jsonl\n", text, folder.string());
+  return Exit::kDone;
+}
+
+}  // namespace mstsl::app
