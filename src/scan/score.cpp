@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "mstsl/grid/frame.hpp"
+#include "mstsl/grid/ray.hpp"
 
 namespace mstsl {
 namespace {
@@ -28,6 +29,11 @@ bool is_near_occupied(const OccupancyGrid& map, const Eigen::Vector2d& at_cells,
   return false;
 }
 
+/// Whether the laser saw this point through an opening into what the map does not know.
+bool is_beyond_the_map(const OccupancyGrid& map, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
+  return state_at(map, to_m) == CellState::kUnknown && !crosses(map, from_m, to_m).wall;
+}
+
 }  // namespace
 
 double confidence_score(const OccupancyGrid& map, const PointSet& points_base_m, const Pose2& map_T_base,
@@ -35,13 +41,20 @@ double confidence_score(const OccupancyGrid& map, const PointSet& points_base_m,
   const GridFrame frame(map.geometry());
   const double tolerance_cells = options.hit_tolerance_m / map.geometry().resolution_m;
   const Eigen::Matrix2d rotation = map_T_base.rotation();
-  std::size_t points = 0, hits = 0;
+  std::size_t points = 0, hits = 0, not_asked = 0;
   for (const Eigen::Vector2d& p : points_base_m) {
     if (p.norm() > options.max_range_m) continue;
     ++points;
-    hits += is_near_occupied(map, frame.to_grid(rotation * p + map_T_base.position()), tolerance_cells);
+    const Eigen::Vector2d at_m = rotation * p + map_T_base.position();
+    if (is_near_occupied(map, frame.to_grid(at_m), tolerance_cells))
+      ++hits;
+    else if (!options.unmapped_is_miss && is_beyond_the_map(map, map_T_base.position(), at_m))
+      ++not_asked;
   }
-  return points == 0 ? 0.0 : static_cast<double>(hits) / static_cast<double>(points);
+  if (points == 0) return 0.0;
+  const double judged = std::max(static_cast<double>(points - not_asked),
+                                 options.least_judged_share * static_cast<double>(points));
+  return judged > 0.0 ? static_cast<double>(hits) / judged : 0.0;
 }
 
 }  // namespace mstsl

@@ -70,6 +70,40 @@ TEST(OdometryTrack, DropsWhatIsNotFiniteOrLate) {
   EXPECT_NEAR(track.at(at_s(1.0))->x, 1.0, 1e-9);
 }
 
+/// As in the Intel log of 2003: silence, then five readings with stamps a microsecond apart.
+void burst(OdometryTrack& track, double at, double from_x) {
+  for (int i = 0; i < 5; ++i) track.add({at_s(at + 1e-6 * i), {from_x + 0.06 * i, 0.0, 0.0}});
+}
+
+TEST(OdometryTrack, ReadingsHeldUpAndSentTogetherAreOneMotion) {
+  OdometryTrack track;
+  for (int i = 0; i < 10; ++i) burst(track, 0.6 * i, 0.3 * i);
+  EXPECT_EQ(track.breaks(), 0u);
+  EXPECT_NEAR(track.travelled_m(), 0.3 * 9 + 0.24, 1e-9);
+}
+
+TEST(OdometryTrack, ABurstTellsNoSpeedToGoOnWith) {
+  OdometryTrack track;
+  for (int i = 0; i < 10; ++i) burst(track, 0.25 * i, 0.3 * i);
+  const double last_m = 0.3 * 9 + 0.24, speed_m_s = 1.2;
+  EXPECT_NEAR(track.at(at_s(0.25 * 9 + 0.1))->x, last_m + 0.1 * speed_m_s, 0.13);
+}
+
+TEST(OdometryTrack, AJumpWithinABurstStillBreaksTheChain) {
+  OdometryTrack track;
+  burst(track, 0.0, 0.0);
+  burst(track, 0.2, 0.3);
+  track.add({at_s(0.2 + 1e-5), {100.0, 0.0, 0.0}});
+  EXPECT_EQ(track.breaks(), 1u);
+}
+
+TEST(OdometryTrack, AFastDriverIsNoBurst) {
+  OdometryTrack track;  // 1 kHz
+  for (int i = 0; i < 2000; ++i) track.add({at_s(0.001 * i), {0.001 * i, 0.0, 0.0}});
+  track.add({at_s(2.0), {2.4, 0.0, 0.0}});
+  EXPECT_EQ(track.breaks(), 1u);
+}
+
 TEST(OdometryTrack, ReadsAnUnwrappedYawAsTheAngleItIs) {
   OdometryTrack track;
   track.add({at_s(0.0), {0.0, 0.0, radians(179)}});

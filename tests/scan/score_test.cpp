@@ -94,5 +94,38 @@ TEST(ConfidenceScore, LeavesOutPointsBeyondTheRange) {
   EXPECT_EQ(confidence_score(OccupancyGrid(), points, pose), 0.0);
 }
 
+/// A wall at x = 2 m with a door in it, and nothing known behind.
+OccupancyGrid wall_with_a_door() {
+  OccupancyGrid map({.resolution_m = 0.05, .columns = 100, .rows = 100}, CellState::kUnknown);
+  for (int row = 0; row < 100; ++row) {
+    for (int column = 0; column < 40; ++column) map[{column, row}] = CellState::kFree;
+    if (row < 40 || row >= 60) map[{40, row}] = CellState::kOccupied;
+  }
+  return map;
+}
+
+TEST(ConfidenceScore, DoesNotAskPointsSeenThroughADoorIntoTheUnmapped) {
+  const OccupancyGrid map = wall_with_a_door();
+  const Pose2 pose{1.0, 2.5, 0};
+  const PointSet points{{1.02, 1.2}, {1.02, -1.2}, {3.0, 0.0}};  // wall, wall, through the door
+  EXPECT_NEAR(confidence_score(map, points, pose), 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(confidence_score(map, points, pose, {.unmapped_is_miss = false}), 1.0, 1e-12);
+}
+
+TEST(ConfidenceScore, AsksPointsBehindAWallAndInFreeSpace) {
+  const OccupancyGrid map = wall_with_a_door();
+  const Pose2 pose{1.0, 2.5, 0};
+  const PointSet points{
+      {1.02, 1.2}, {1.02, -1.2}, {3.0, 2.0}, {0.3, 0.0}};  // ..., behind the wall, in the open
+  EXPECT_NEAR(confidence_score(map, points, pose, {.unmapped_is_miss = false}), 0.5, 1e-12);
+}
+
+TEST(ConfidenceScore, IsNotHighWhereMostOfTheScanLeavesTheMap) {
+  const OccupancyGrid map = wall_with_a_door();
+  const PointSet points{{1.02, 1.2}, {3.0, 0.0}, {3.0, 0.1}, {3.0, -0.1}};
+  EXPECT_NEAR(confidence_score(map, points, {1.0, 2.5, 0}, {.unmapped_is_miss = false}), 0.5, 1e-12);
+  EXPECT_EQ(confidence_score(map, {{50.0, 0.0}}, {1.0, 2.5, 0}, {.unmapped_is_miss = false}), 0.0);
+}
+
 }  // namespace
 }  // namespace mstsl

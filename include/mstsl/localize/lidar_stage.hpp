@@ -33,7 +33,7 @@ struct LidarStageOptions {
   double max_sigma_m = 1.0;
   OdometryNoise odometry;
   LocalMapOptions local_map;
-  SubmapMatchOptions match;
+  SubmapMatchOptions match{.score = {.unmapped_is_miss = false}};
   /// The paper's S below which a hypothesis is false.
   double min_score = kConfidenceThreshold;
   /// ... so many matches in a row: people walk by and cars come and go.

@@ -14,6 +14,10 @@ struct OdometryTrackOptions {
   double max_speed_m_s = 5.0;
   /// The same for turning, in rad/s; one and a half turns a second.
   double max_turn_rate_rad_s = 9.4;
+  /// Readings no further apart than this, in s, came in one burst: a driver or network held them up and let
+  /// them go together (the CARMEN logs of 2003 do so ten times a minute). Their own stamps tell no speed; the
+  /// time since the last reading before the burst does.
+  double burst_s = 0.02;
   /// A reading asked for later than the last one by more than this, in s, is not extrapolated to; ten periods
   /// of a slow (10 Hz) driver would be 1 s, but at walking pace 0.3 s are already half a metre.
   double max_extrapolation_s = 0.3;
@@ -47,10 +51,13 @@ class OdometryTrack {
 
  private:
   bool plausible(const Pose2& step, double seconds) const;
+  bool goes_on(const OdometryReading& reading);
 
   OdometryTrackOptions options_;
   Trajectory track_;
   std::optional<OdometryReading> last_;
+  std::optional<OdometryReading>
+      before_burst_;  ///< the last reading before the burst that `last_` belongs to
   bool chained_ = true;
   double travelled_m_ = 0.0;
   std::uint64_t breaks_ = 0;

@@ -21,14 +21,14 @@ struct TrackerOptions {
   double spacing_m = 0.10;
   std::size_t max_points = 250;
   RefineOptions refine;
-  ScoreOptions score;
+  ScoreOptions score{.unmapped_is_miss = false};
   /// A scan that scores less speaks against the pose. Lower than the paper's 0.85, which picks a pose:
   /// people, moved cars and open doors cost a right pose that much for a while. Not much lower: in a wrong
   /// corridor as wide as the right one the two walls alone score 0.6.
   double low_score = 0.75;
   /// After so many low scans in a row the surroundings are searched again ...
   int low_scans_to_search = 5;
-  SubmapMatchOptions search;
+  SubmapMatchOptions search{.score = {.unmapped_is_miss = false}};
   /// ... and what is found there is taken if it scores as an answer must (the paper's S): nearly everywhere
   /// something fits a little better than a wrong pose.
   double min_found_score = kConfidenceThreshold;

@@ -21,6 +21,13 @@ struct ScoreOptions {
   double hit_tolerance_m = 0.075;
   /// Points farther from the base than this are left out: a small error of heading moves them off their wall.
   double max_range_m = std::numeric_limits<double>::infinity();
+  /// The paper counts every point that hits no wall against the pose. Without this, a point that the laser
+  /// saw through an opening into what the map does not know is not asked: maps end at doors that were shut
+  /// when they were made. A point behind a mapped wall counts in any case.
+  bool unmapped_is_miss = true;
+  /// ... but S is taken over at least this share of the points: a pose at the map's edge that leaves most of
+  /// the scan unexplained is not confirmed by the few points that are left.
+  double least_judged_share = 0.5;
 };
 
 /// The paper's confidence score S = (sum over j of P_j) / J: the share of the scan's points that hit an
