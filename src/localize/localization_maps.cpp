@@ -55,8 +55,8 @@ Result<std::shared_ptr<const LocalizationMaps>> make_localization_maps(
         100.0 * on_free));
   Result<FieldMatcher> matcher = FieldMatcher::make(field, {.threads = options.threads});
   if (!matcher) return matcher.error();
-  return std::make_shared<const LocalizationMaps>(
-      LocalizationMaps{MatchMap(std::move(occupancy)), std::move(matcher).value(), FieldSampler(field), *axis, on_free});
+  return std::make_shared<const LocalizationMaps>(LocalizationMaps{
+      MatchMap(std::move(occupancy)), std::move(matcher).value(), FieldSampler(field), *axis, on_free});
 }
 
 }  // namespace mstsl
