@@ -1,15 +1,18 @@
 #!/usr/bin/env bash
 # The figures on real recordings, from the recordings to the table: convert, map the field, localize every run, evaluate.
 #
-#   tools/real_results.sh MSTSL DATA OUT [SEED]
+#   tools/real_results.sh MSTSL DATA OUT [SEED [METHOD...]]
 #
 # MSTSL is the built command, DATA the folder with cea-corridor/, kaist-n1-7f/ and carmen/, OUT a folder for logs and
 # results. Ends with OUT/results.json: for each data set what is real, the commands, and what `mstsl evaluate` says.
+# METHODs are those of `mstsl localize`; without any, two-step and joint, both on the same logs.
 # A folder that is already there is used as it is, so that a run can be continued; remove it to start anew.
 set -euo pipefail
 
-[ $# -ge 3 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -ge 3 ] || { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 mstsl=$1 data=$2 out=$3 seed=${4:-1000}
+methods=("${@:5}")
+[ ${#methods[@]} -gt 0 ] || methods=(two-step joint)
 mkdir -p "$out"
 
 quoted() { printf '"%s"' "$(printf '%s' "$1" | sed 's/\\/\\\\/g; s/"/\\"/g')"; }
@@ -48,23 +51,29 @@ result() {
     "$("$mstsl" evaluate --json "${estimates[@]}" "${truths[@]}")"
 }
 
+separator='['
+# each NAME REAL K CONVERT_OPTION... : the same data set with every method
+each() {
+  local name=$1 real=$2 k=$3 method
+  shift 3
+  for method in "${methods[@]}"; do
+    printf '%s\n' "$separator"
+    result "$name" "$real" "$method" "$k" "$@"
+    separator=','
+  done
+}
+
 field='field; lidar and odometry simulated'
 plan='floor plan and field; lidar and odometry simulated'
 robot='lidar and odometry; field simulated over the real map'
 {
-  printf '[\n'
-  result cea-corridor "$field" two-step 5 --dataset cea-corridor "$data/cea-corridor" --runs 50
-  printf ',\n'
-  result kaist-n1-7f "$plan" two-step 5 --dataset kaist-n1-7f "$data/kaist-n1-7f" --runs 20
+  each cea-corridor "$field" 5 --dataset cea-corridor "$data/cea-corridor" --runs 50
+  each kaist-n1-7f "$plan" 5 --dataset kaist-n1-7f "$data/kaist-n1-7f" --runs 20
   # Aces comes back so late that only its last fifth revisits the rest: 15 overlapping runs over 27 m.
-  printf ',\n'
-  result aces "$robot" two-step 5 --dataset carmen "$data/carmen/aces-corrected.log.gz" --runs 15 --mapped-share 0.8
-  printf ',\n'
-  result intel "$robot" two-step 5 --dataset carmen "$data/carmen/intel-corrected.log.gz" --runs 50
-  printf ',\n'
-  result freiburg-079 "$robot" two-step 5 --dataset carmen "$data/carmen/freiburg-079-corrected.log.gz" --runs 50
-  printf ',\n'
-  result seattle "$robot" two-step 5 --dataset carmen "$data/carmen/seattle-corrected.log.gz" --runs 50 --mapped-share 0.5
+  each aces "$robot" 5 --dataset carmen "$data/carmen/aces-corrected.log.gz" --runs 15 --mapped-share 0.8
+  each intel "$robot" 5 --dataset carmen "$data/carmen/intel-corrected.log.gz" --runs 50
+  each freiburg-079 "$robot" 5 --dataset carmen "$data/carmen/freiburg-079-corrected.log.gz" --runs 50
+  each seattle "$robot" 5 --dataset carmen "$data/carmen/seattle-corrected.log.gz" --runs 50 --mapped-share 0.5
   printf '\n]\n'
 } > "$out/results.json.part"
 mv "$out/results.json.part" "$out/results.json"
