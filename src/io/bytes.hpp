@@ -91,7 +91,8 @@ class ByteBuilder {
     value = from_order(value, std::endian::little);
     append(std::as_bytes(std::span(&value, 1)));
   }
-  void append(ByteView piece) { bytes_.insert(bytes_.end(), piece.begin(), piece.end()); }
+  /// Not inlined: GCC 14 would see overflows in it that are not there, wherever a size is known.
+  [[gnu::noinline]] void append(ByteView piece) { bytes_.insert(bytes_.end(), piece.begin(), piece.end()); }
   template <std::unsigned_integral Length>
   void sized(ByteView piece) {
     number(static_cast<Length>(piece.size()));
