@@ -30,6 +30,10 @@ void OdometryTrack::add(const OdometryReading& reading) {
     track_.add(reading.stamp, pose);
   } else {
     const bool continued = goes_on({reading.stamp, pose});
+    if (!continued && chained_ && reading.stamp == last_->stamp) {  // two poses at once: the first one counts
+      ++dropped_;
+      return;
+    }
     if (!continued) {
       ++breaks_;
       before_burst_.reset();

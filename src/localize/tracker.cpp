@@ -32,12 +32,12 @@ void Tracker::observe(const PointSet& points_base_m, const Pose2& last_T_base, b
   if (low_scans_ > 0 && low_scans_ % options_.low_scans_to_search == 0) search(points_base_m);
 }
 
-bool Tracker::lost() const {
+bool Tracker::lost(bool other_witness_agrees) const {
   const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance_.topLeftCorner<2, 2>(),
                                                                         Eigen::EigenvaluesOnly)
                              .eigenvalues()
                              .maxCoeff();
-  return low_scans_ >= options_.low_scans_to_lose ||
+  return (low_scans_ >= options_.low_scans_to_lose && !other_witness_agrees) ||
          !(largest <= options_.max_sigma_m * options_.max_sigma_m);
 }
 

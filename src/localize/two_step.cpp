@@ -8,6 +8,7 @@
 namespace mstsl {
 namespace {
 
+constexpr double kFieldWithScan_s = 0.1;  // at walking pace 0.1 m: less than the field's correlation length
 constexpr std::size_t kMostHypotheses = 20;  // as many as an estimate lists
 
 /// Best first; those that were removed are left out.
@@ -38,6 +39,7 @@ void TwoStep::observe(const FieldReading& field) {
     return;
   }
   last_field_ = field.stamp;
+  last_base_field_uT_ = rig_.base_T_magnetometer.linear() * field.sensor_field_uT;
   const std::optional<Pose2> track_T_base = track_.at(field.stamp);
   if (!track_T_base) {
     ++counts_.field_without_odometry;
@@ -45,8 +47,7 @@ void TwoStep::observe(const FieldReading& field) {
   }
   ++counts_.field_used;
   if (auto* gathering = std::get_if<Gathering>(&phase_))
-    gathering->reading.observe_field(field.stamp, rig_.base_T_magnetometer.linear() * field.sensor_field_uT,
-                                     *track_T_base);
+    gathering->reading.observe_field(field.stamp, last_base_field_uT_, *track_T_base);
 }
 
 void TwoStep::observe(const LaserScan& scan) {
@@ -119,15 +120,22 @@ void TwoStep::advance(Comparing& comparing, const Step& step) {
   if (const std::optional<LidarStage::Answer> answer = comparing.stage.answer()) {
     was_localized_ = true;
     phase_ = Tracking{Tracker(maps_, answer->map_T_base, answer->covariance, options_.tracker),
-                      answer->probability};
+                      answer->probability, FieldWitness(options_.field_witness)};
   }
 }
 
 void TwoStep::advance(Tracking& tracking, const Step& step) {
   tracking.tracker.observe(end_points(step.returns), step.last_T_base, step.broken);
-  if (!tracking.tracker.lost()) return;
+  ask_field(tracking, step.stamp);
+  if (!tracking.tracker.lost(tracking.field.agrees())) return;
   ++counts_.times_lost;
   search_again();
+}
+
+void TwoStep::ask_field(Tracking& tracking, Stamp stamp) const {
+  if (!last_field_ || std::abs(stamp - *last_field_) > kFieldWithScan_s) return;
+  tracking.field.observe(maps_->field_cells, last_base_field_uT_, tracking.tracker.map_T_base(),
+                         rig_.base_T_magnetometer.translation().head<2>());
 }
 
 void TwoStep::search_again() { phase_ = Gathering{FirstReading(options_.align)}; }

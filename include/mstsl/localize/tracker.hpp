@@ -34,8 +34,8 @@ struct TrackerOptions {
   double min_found_score = kConfidenceThreshold;
   double search_sigma_m = 0.35;
   double search_sigma_rad = 0.1;
-  /// ... and after so many the robot is lost: 1.5 m of driving, or 7 s of standing, at the rates of
-  /// TwoStepOptions.
+  /// ... and after so many the robot is lost, unless another witness speaks for the pose: 1.5 m of driving,
+  /// or 7 s of standing, at the rates of TwoStepOptions.
   int low_scans_to_lose = 15;
   /// Lost, too, when the position's standard deviation exceeds this, in m: as much as a right pose may be
   /// off.
@@ -53,7 +53,8 @@ class Tracker {
   /// odometry counts.
   void observe(const PointSet& points_base_m, const Pose2& last_T_base, bool broken);
 
-  bool lost() const;
+  /// Lost: low scores for too long while no other witness speaks for the pose, or too little known of it.
+  bool lost(bool other_witness_agrees = false) const;
   const Pose2& map_T_base() const { return map_T_base_; }
   const Eigen::Matrix3d& covariance() const { return covariance_; }
   double score() const { return score_; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mstsl/core/result.hpp"
+#include "mstsl/localize/field_witness.hpp"
 #include "mstsl/localize/lidar_stage.hpp"
 #include "mstsl/localize/localizer.hpp"
 #include "mstsl/localize/odometry_track.hpp"
@@ -20,6 +21,7 @@ struct TwoStepOptions {
   InitialiseOptions initialise;
   LidarStageOptions lidar;
   TrackerOptions tracker;
+  FieldWitnessOptions field_witness;
   OdometryTrackOptions odometry;
   /// A scan is processed after so much motion (m, rad) or time (s) since the last one that was.
   double process_every_m = 0.1;
@@ -63,6 +65,7 @@ class TwoStep {
   struct Tracking {
     Tracker tracker;
     double probability = 0.0;
+    FieldWitness field;
   };
   struct Counts {
     std::uint64_t late_scans = 0, blind_scans = 0, scans_without_odometry = 0;
@@ -85,6 +88,7 @@ class TwoStep {
   void advance(Gathering& gathering, const Step& step);
   void advance(Comparing& comparing, const Step& step);
   void advance(Tracking& tracking, const Step& step);
+  void ask_field(Tracking& tracking, Stamp stamp) const;
   void search_again();
   void count_removed(const std::vector<LidarHypothesis>& before, const std::vector<LidarHypothesis>& after);
 
@@ -96,6 +100,7 @@ class TwoStep {
   std::variant<Gathering, Comparing, Tracking> phase_;
   Counts counts_;
   std::optional<Stamp> last_scan_, last_field_;
+  Eigen::Vector3d last_base_field_uT_ = Eigen::Vector3d::Zero();
   std::optional<TimedPose> last_step_;
   std::uint64_t breaks_at_last_step_ = 0;
   double travelled_at_last_step_m_ = 0.0;
