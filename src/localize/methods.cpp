@@ -26,12 +26,18 @@ Result<LocalizerFactory> make_joint(Maps maps, const MethodOptions& options) {
   });
 }
 
+Result<LocalizerFactory> make_global_scan(Maps maps, const MethodOptions& options) {
+  return LocalizerFactory(
+      [maps, own = options.global_scan](const Rig& rig) { return AnyLocalizer(GlobalScan(maps, rig, own)); });
+}
+
 struct Method {
   std::string_view name;
   Result<LocalizerFactory> (*make)(Maps, const MethodOptions&);
 };
 
-constexpr std::array kMethods{Method{"two-step", make_two_step}, Method{"joint", make_joint}};
+constexpr std::array kMethods{Method{"two-step", make_two_step}, Method{"joint", make_joint},
+                              Method{"global-scan", make_global_scan}};
 
 }  // namespace
 
