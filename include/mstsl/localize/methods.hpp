@@ -8,6 +8,7 @@
 
 #include "mstsl/core/result.hpp"
 #include "mstsl/localize/baselines/global_scan.hpp"
+#include "mstsl/localize/baselines/mag_filter.hpp"
 #include "mstsl/localize/joint/joint.hpp"
 #include "mstsl/localize/localization_maps.hpp"
 #include "mstsl/localize/localizer.hpp"
@@ -23,6 +24,7 @@ struct MethodOptions {
   TwoStepOptions two_step;
   JointOptions joint;
   GlobalScanOptions global_scan;
+  MagFilterOptions mag_filter;
   Threads threads;
 };
 
