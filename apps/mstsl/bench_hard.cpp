@@ -115,12 +115,15 @@ Result<Exit> bench_hard(const Session& session, const HardWish& wish, int runs,
   const HardHead head{MSTSL_COMMIT, options.build, options.seed, peak_memory_mb()};
   const std::string text = hard_text(*records), json = hard_json(*records, head);
   for (const auto& [name, content] :
-       {std::pair{"table.txt", text}, {"results.json", json}, {"cost.json", hard_cost_json(*records, head)}})
+       {std::pair{fmt::format("table_{}.txt", wish.set), text},
+        {fmt::format("results_{}.json", wish.set), json},
+        {fmt::format("cost_{}.json", wish.set), hard_cost_json(*records, head)}})
     if (const Result<void> written = io::write_file(folder / name, content); !written) return written.error();
   if (session.json)
     fmt::print("{}", json);
   else if (!session.quiet)
-    fmt::print("{}\n{}: table.txt, results.json, cost.json, runs.jsonl\n", text, folder.string());
+    fmt::print("{}\n{}: table_{}.txt, results_{}.json, cost_{}.json, runs.jsonl\n", text, folder.string(),
+               wish.set, wish.set, wish.set);
   return Exit::kDone;
 }
 

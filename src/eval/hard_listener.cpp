@@ -111,10 +111,9 @@ void HardListener::observe(const SensorEvent& event) {
   const double spent = thread_cpu_ms() - before;
   cpu_ms_ += spent;
   since_scan_ms_ += spent;
-  if (!std::holds_alternative<LaserScan>(event)) return;
-  const bool has_pose = !estimates_.empty() && estimates_.back().map_T_base.has_value();
-  (has_pose ? tracking_ : searching_).add(std::exchange(since_scan_ms_, 0.0));
-  if (estimates_.size() > had) estimates_.back().hypotheses = {};  // a long run's would fill the memory
+  if (estimates_.size() == had) return;  // passed over: its cost counts with the next scan that is not
+  (estimates_.back().map_T_base ? tracking_ : searching_).add(std::exchange(since_scan_ms_, 0.0));
+  estimates_.back().hypotheses = {};  // a long run's would fill the memory
 }
 
 HardRecord HardListener::record(const Trajectory& truth, std::optional<Stamp> set_down) const {

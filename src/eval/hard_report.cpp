@@ -26,12 +26,12 @@ std::string pair(const std::vector<double>& values, double scale) {
 
 std::string table(const std::vector<HardRow>& rows) {
   std::string text = fmt::format(
-      "{:<10} {:<15} {:<16} {:>5} {:>21} {:>7} {:>6} {:>10} {:>10} {:>10} {:>13} {:>13} {:>13} {:>13}\n",
+      "{:<16} {:<15} {:<16} {:>5} {:>21} {:>7} {:>6} {:>10} {:>10} {:>10} {:>13} {:>13} {:>13} {:>13}\n",
       "method", "world", "disturbance", "runs", "success % [95 %]", "tight %", "silent", "1st>.999",
       "any>.999", "any>.99", "CLD m 50/95", "fix s 50/95", "err cm 50/95", "deg 50/95");
   for (const HardRow& r : rows)
     text +=
-        fmt::format("{:<10} {:<15} {:<16} {:>5} {:>21} {:>7.1f} {:>6} {} {} {} {:>13} {:>13} {:>13} {:>13}\n",
+        fmt::format("{:<16} {:<15} {:<16} {:>5} {:>21} {:>7.1f} {:>6} {} {} {} {:>13} {:>13} {:>13} {:>13}\n",
                     r.method, r.world, r.disturbance, r.runs, percent(r.success), 100 * r.tight.share(),
                     r.runs - r.answered.hits, counts(r.first_wrong_at_999), counts(r.runs_wrong_at_999),
                     counts(r.runs_wrong_at_99), pair(r.correct_distance_m, 1), pair(r.time_to_fix_s, 1),

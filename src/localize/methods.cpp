@@ -26,12 +26,44 @@ Result<LocalizerFactory> make_joint(Maps maps, const MethodOptions& options) {
   });
 }
 
+Result<LocalizerFactory> make_global_scan(Maps maps, const MethodOptions& options) {
+  return LocalizerFactory(
+      [maps, own = options.global_scan](const Rig& rig) { return AnyLocalizer(GlobalScan(maps, rig, own)); });
+}
+
+/// What an expert sets where people and moved things hide part of a scan: a lower threshold, and a third
+/// match in return.
+Result<LocalizerFactory> make_global_scan_best(Maps maps, const MethodOptions& options) {
+  MethodOptions best = options;
+  best.global_scan.min_score = 0.45;
+  best.global_scan.agreeing = 3;
+  return make_global_scan(std::move(maps), best);
+}
+
+Result<LocalizerFactory> make_mag_filter(Maps maps, const MethodOptions& options) {
+  return LocalizerFactory(
+      [maps, own = options.mag_filter](const Rig& rig) { return AnyLocalizer(MagFilter(maps, rig, own)); });
+}
+
+/// What an expert sets who knows that a bias is left and that near readings are not independent.
+Result<LocalizerFactory> make_mag_filter_best(Maps maps, const MethodOptions& options) {
+  MethodOptions best = options;
+  best.mag_filter.particles = 20'000;
+  best.mag_filter.sigma_uT = 3.0;
+  best.mag_filter.temper = 0.3;
+  best.mag_filter.answer_from = 0.95;
+  return make_mag_filter(std::move(maps), best);
+}
+
 struct Method {
   std::string_view name;
   Result<LocalizerFactory> (*make)(Maps, const MethodOptions&);
 };
 
-constexpr std::array kMethods{Method{"two-step", make_two_step}, Method{"joint", make_joint}};
+constexpr std::array kMethods{
+    Method{"two-step", make_two_step},       Method{"joint", make_joint},
+    Method{"global-scan", make_global_scan}, Method{"global-scan-best", make_global_scan_best},
+    Method{"mag-pf", make_mag_filter},       Method{"mag-pf-best", make_mag_filter_best}};
 
 }  // namespace
 

@@ -27,8 +27,8 @@ struct Prior {
   double median, log_sd, low, high;
 };
 // The field's correlation falls to one half at 0.4-3 m in real buildings; a squared exponential's does so
-// at 1.18 l.
-constexpr Prior kLengthScale_m{0.8, 0.8, 0.1, 6.0};
+// at 1.18 l. A shorter one than 0.2 m is no field but outliers, and a map of it knows nothing between lanes.
+constexpr Prior kLengthScale_m{0.8, 0.8, 0.2, 6.0};
 // Sensor noise 0.05-0.5 uT and position errors of 1 cm, on a field of 5-13 uT.
 constexpr Prior kNoiseRatio{0.1, 1.2, TileRegression::kMinNoiseRatio, 2.0};
 

@@ -54,7 +54,9 @@ Eigen::Vector3f in_map(const Eigen::Vector3f& v, const Eigen::Matrix2f& map_R_gr
 }  // namespace
 
 WallField::WallField(const OccupancyGrid& occupancy, const WallFieldOptions& options)
-    : distances_(occupancy, options.reach_m), frame_(occupancy.geometry()), facing_(occupancy.geometry(), Eigen::Vector3f::Zero()) {
+    : distances_(occupancy, options.reach_m),
+      frame_(occupancy.geometry()),
+      facing_(occupancy.geometry(), Eigen::Vector3f::Zero()) {
   const GridGeometry& g = geometry();
   for (std::size_t i = 0; i < g.size(); ++i) facing_.values()[i] = normal_product(distances_, g.cell(i));
   const int radius = std::max(1, static_cast<int>(std::lround(options.smoothing_m / g.resolution_m)));

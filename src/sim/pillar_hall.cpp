@@ -33,8 +33,9 @@ void add_pillars(WorldPlan& plan, const Layout& l, Random& random) {
         plan.walls.push_back(piece);
       add_concrete_column(plan.steel, at, kCeiling_m, random);
       // Switch boxes and hose reels on the pillars, above the lidar's plane.
-      plan.spots.push_back(
-          {ThingKind::kHiddenSteel, Pose2::from(at, radians(90) * random.index(4)), 0.5, std::nullopt});
+      plan.spots.push_back({ThingKind::kHiddenSteel,
+                            Pose2::from(at, radians(90) * static_cast<double>(random.index(4))), 0.5,
+                            std::nullopt});
     }
 }
 

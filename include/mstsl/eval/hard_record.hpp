@@ -20,7 +20,8 @@ struct HardKey {
   friend bool operator==(const HardKey&, const HardKey&) = default;
 };
 
-/// How much CPU time the scans took, each with the readings before it: a histogram, so that runs add up.
+/// How much CPU time the scans took that were processed, each with all readings since the last such one: a
+/// histogram, so that runs add up.
 class CostHistogram {
  public:
   static constexpr std::size_t kBins = 120;

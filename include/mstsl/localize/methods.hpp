@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "mstsl/core/result.hpp"
+#include "mstsl/localize/baselines/global_scan.hpp"
+#include "mstsl/localize/baselines/mag_filter.hpp"
 #include "mstsl/localize/joint/joint.hpp"
 #include "mstsl/localize/localization_maps.hpp"
 #include "mstsl/localize/localizer.hpp"
@@ -21,6 +23,8 @@ std::vector<std::string> method_names();
 struct MethodOptions {
   TwoStepOptions two_step;
   JointOptions joint;
+  GlobalScanOptions global_scan;
+  MagFilterOptions mag_filter;
   Threads threads;
 };
 

@@ -49,7 +49,7 @@ struct BankOptions {
   FitOptions fit;
   MotionNoise odometry;
   /// A station's log density counts this much: what the model does not know makes it too sure of itself.
-  double field_temper = 0.5;
+  double field_temper = 0.35;
   /// How often, one in so many metres, the robot is carried off or something happens that no mode knows.
   double lost_every_m = 20'000.0;
   /// "None of these" before anything is known.

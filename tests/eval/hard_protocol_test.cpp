@@ -1,0 +1,222 @@
+#include "mstsl/eval/hard_protocol.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "mstsl/eval/hard_report.hpp"
+
+#include "eval/hard_building.hpp"
+#include "eval/hard_crowd.hpp"
+#include "eval/hard_listener.hpp"
+#include "test_support.hpp"
+
+namespace mstsl {
+namespace {
+
+namespace fs = std::filesystem;
+using test::must;
+
+/// Says, scan by scan, how far from the truth it is (m); nothing where it has no pose.
+struct Scripted {
+  std::vector<std::optional<double>> errors_m;
+  double truth_x_per_scan_m = 0.5;
+  int scans = 0;
+  Estimate now;
+  void observe(const OdometryReading&) {}
+  void observe(const OdometryRestart&) {}
+  void observe(const FieldReading&) {}
+  void observe(const LaserScan& scan) {
+    const auto& error = errors_m[static_cast<std::size_t>(scans)];
+    now.stamp = scan.stamp;
+    now.travelled_m = truth_x_per_scan_m * scans;
+    now.probability = 0.9995;
+    now.map_T_base = error ? std::optional(Pose2{truth_x_per_scan_m * scans + *error, 0, 0}) : std::nullopt;
+    now.status = error ? LocalizationStatus::kLocalized : LocalizationStatus::kLost;
+    ++scans;
+  }
+  Estimate estimate() const { return now; }
+  LocalizerReport report() const { return {}; }
+};
+
+/// One scan a second, half a metre driven between two.
+HardRecord listen(const std::vector<std::optional<double>>& errors_m, std::optional<int> set_down = {}) {
+  HardListener listener{AnyLocalizer(Scripted{errors_m})};
+  Trajectory truth;
+  for (std::size_t i = 0; i < errors_m.size(); ++i) {
+    const Stamp stamp = Stamp::from_seconds(static_cast<double>(i));
+    truth.add(stamp, {0.5 * static_cast<double>(i), 0, 0});
+    LaserScan scan;
+    scan.stamp = stamp;
+    listener.observe(scan);
+  }
+  return listener.record(truth, set_down ? std::optional(Stamp::from_seconds(*set_down)) : std::nullopt);
+}
+
+TEST(HardListener, CountsClaimsAndDistances) {
+  const HardRecord record = listen({{}, {}, 0.1, 0.3, 0.7, 0.1});
+  EXPECT_EQ(record.estimates, 6u);
+  EXPECT_EQ(record.answers, 4u);
+  EXPECT_EQ(record.claims_at_999, 4u);
+  EXPECT_EQ(record.wrong_at_999, 1u);
+  EXPECT_DOUBLE_EQ(*record.correct_distance_m, 1.0);
+  EXPECT_DOUBLE_EQ(*record.first_s, 2.0);
+  EXPECT_DOUBLE_EQ(record.driven_m, 2.5);
+  EXPECT_DOUBLE_EQ(record.right_m, 1.0) << "from the 3rd scan to the 5th";
+  EXPECT_TRUE(record.succeeded());
+  EXPECT_TRUE(record.first->tight);
+  EXPECT_EQ(record.sample.size(), 4u);
+  EXPECT_EQ(record.false_alarms, 0u);
+}
+
+TEST(HardListener, ARightPoseWithdrawnIsAFalseAlarm) {
+  EXPECT_EQ(listen({0.1, {}, 0.1, {}}).false_alarms, 2u);
+  EXPECT_EQ(listen({0.1, 0.1, {}, {}}, 2).false_alarms, 0u) << "it was carried";
+  EXPECT_EQ(listen({0.9, {}, {}}).false_alarms, 0u) << "it was wrong";
+}
+
+TEST(HardListener, TellsWhenACarryWasNoticedAndMended) {
+  const auto outcome = *listen({0.1, 0.1, 5.0, 5.0, {}, {}, 0.2}, 2).kidnap;
+  EXPECT_TRUE(outcome.localized_before);
+  EXPECT_DOUBLE_EQ(*outcome.noticed_m, 1.0);
+  EXPECT_DOUBLE_EQ(*outcome.recovered_m, 2.0);
+  EXPECT_FALSE(outcome.wrong_again);
+  EXPECT_TRUE(listen({0.1, 0.1, {}, 3.0}, 2).kidnap->wrong_again);
+  EXPECT_FALSE(listen({0.1, 0.1, 5.0, 5.0}, 2).kidnap->noticed_m);
+  EXPECT_FALSE(listen({{}, {}, 0.1}, 2).kidnap->localized_before);
+}
+
+TEST(HardRecord, ComesBackFromItsLine) {
+  HardRecord record = listen({{}, 0.1, 0.2, {}, 0.9}, 3);
+  record.key = {"kidnap", "office", "all", "joint", 7};
+  record.options = "seed 1", record.build = "b", record.simulation_ms = 12.5;
+  const std::string line = to_line(record);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const HardRecord back = must(record_from_line(line));
+  EXPECT_EQ(to_line(back), line);
+  EXPECT_EQ(back.key, record.key);
+  for (std::size_t cut = 0; cut < line.size(); cut += 7) EXPECT_FALSE(record_from_line(line.substr(0, cut)));
+}
+
+TEST(CostHistogram, GivesQuantilesWithinItsBins) {
+  CostHistogram cost;
+  for (int i = 1; i <= 1000; ++i) cost.add(0.1 * i);
+  EXPECT_EQ(cost.count(), 1000u);
+  EXPECT_NEAR(cost.quantile_ms(0.5), 50.0, 6.0);
+  EXPECT_NEAR(cost.quantile_ms(0.95), 95.0, 6.0);
+  EXPECT_DOUBLE_EQ(cost.max_ms(), 100.0);
+  EXPECT_DOUBLE_EQ(CostHistogram{}.quantile_ms(0.5), 0.0);
+}
+
+TEST(Crowd, HidesWhatItIsAskedToInTheOpenAndNothingBehindAWall) {
+  LaserScan open;
+  open.angle_min_rad = -2.35;
+  open.angle_increment_rad = 4.7 / 540;
+  open.ranges_m.assign(541, 20.0f);
+  Crowd crowd(0.3, open, Random(1));
+  double hidden = 0.0;
+  for (int second = 0; second < 60; ++second) {
+    LaserScan scan = open;
+    crowd.hide(scan, second);
+    for (const float range : scan.ranges_m) hidden += range < 19.0f ? 1.0 / (541 * 60) : 0.0;
+  }
+  EXPECT_GT(hidden, 0.15);
+  EXPECT_LT(hidden, 0.33);
+  LaserScan near = open;
+  near.ranges_m.assign(541, 0.3f);
+  crowd.hide(near, 0.0);
+  for (const float range : near.ranges_m) EXPECT_EQ(range, 0.3f);
+}
+
+TEST(HardRows, SumUpByHand) {
+  std::vector<HardRecord> records;
+  for (const double error : {0.1, 0.3, 2.0}) {
+    records.push_back(listen({{}, {}, error, error}));
+    records.back().key = {"fix", "office", "none", "joint", static_cast<int>(records.size())};
+  }
+  records.push_back(listen({{}, {}}));
+  records.back().key = {"fix", "aisles", "none", "joint", 0};
+  const HardRow all = hard_rows(records).front();
+  EXPECT_EQ(all.runs, 4u);
+  EXPECT_EQ(all.success.hits, 2u);
+  EXPECT_EQ(all.tight.hits, 1u);
+  EXPECT_EQ(all.answered.hits, 3u);
+  EXPECT_EQ(all.first_wrong_at_999.hits, 1u);
+  EXPECT_EQ(all.first_wrong_at_999.of, 3u);
+  EXPECT_EQ(all.runs_wrong_at_999.of, 4u);
+  EXPECT_DOUBLE_EQ(quantile(all.correct_distance_m, 0.5), 1.0);
+  EXPECT_NEAR(quantile(all.error_m, 0.5), 0.2, 1e-9);
+  // By hand: two of three claims of 0.9995 right.
+  EXPECT_NEAR(all.first_answers.brier, (2 * 0.0005 * 0.0005 + 0.9995 * 0.9995) / 3, 1e-12);
+}
+
+TEST(WeakField, HasTheSpreadAskedFor) {
+  const sim::World world = must(sim::make_world("office", {}, Random(3)));
+  const double share = 3.0 / field_spread_uT(world);
+  ASSERT_LT(share, 1.0);
+  const auto field = weakened(world, share);
+  const Eigen::Vector3d at(1, 0, 0.7), earth = world.field().earth().in_map_uT();
+  EXPECT_NEAR((field({}, at) - earth).norm(), share * (world.field_uT(at) - earth).norm(), 1e-9);
+}
+
+std::string without_cost(HardRecord record) {
+  record.searching = {}, record.tracking = {}, record.simulation_ms = 0.0;
+  return to_line(record);
+}
+
+TEST(HardProtocol, KeepsRunsAndIsTheSameAtAnyNumberOfThreads) {
+  const fs::path folder = fs::temp_directory_path() / "mstsl_hard_protocol_test";
+  fs::remove_all(folder);
+  HardProtocolOptions options;
+  options.worlds = {"office"};
+  options.disturbances = {"none", "people"};
+  options.runs = 2;
+  options.length_m = 4.0;
+  options.beams = 181;
+  options.folder = folder;
+  options.build = "test";
+  options.threads = {2};
+  const auto first = must(run_hard_protocol(options));
+  ASSERT_EQ(first.size(), 4u);
+  const auto lines = [&] {
+    std::ifstream file(folder / "runs.jsonl");
+    int count = 0;
+    for (std::string line; std::getline(file, line);) ++count;
+    return count;
+  };
+  EXPECT_EQ(lines(), 4);
+  EXPECT_EQ(must(run_hard_protocol(options)).size(), 4u);
+  EXPECT_EQ(lines(), 4) << "what is finished is not run again";
+
+  { std::ofstream(folder / "runs.jsonl", std::ios::app) << "{\"set\": \"cut o"; }
+  options.build = "another", options.threads = {1};
+  const auto again = must(run_hard_protocol(options));
+  ASSERT_EQ(again.size(), 4u);
+  EXPECT_EQ(lines(), 9) << "another build's runs are not taken for this one's";
+  for (std::size_t i = 0; i < 4; ++i) {
+    HardRecord same = again[i];
+    same.build = "test";
+    EXPECT_EQ(without_cost(same), without_cost(first[i]));
+  }
+  fs::remove_all(folder);
+}
+
+TEST(HardProtocol, RefusesWhatIsNotThere) {
+  HardProtocolOptions options;
+  options.worlds = {"atlantis"};
+  EXPECT_NE(run_hard_protocol(options).error().message().find("symmetric-loop"), std::string::npos);
+  options = {};
+  options.methods = {"guess"};
+  EXPECT_FALSE(run_hard_protocol(options));
+  options = {};
+  options.disturbances = {"rain"};
+  EXPECT_FALSE(run_hard_protocol(options));
+  options = {};
+  options.runs = 0;
+  EXPECT_FALSE(run_hard_protocol(options));
+}
+
+}  // namespace
+}  // namespace mstsl
