@@ -20,22 +20,36 @@ inline Eigen::Matrix3d about_z(double yaw_rad) {
   return r;
 }
 
-/// Natural log of N(off; 0, covariance).
-inline double log_density(const Eigen::Vector3d& off, const Eigen::LLT<Eigen::Matrix3d>& llt) {
-  constexpr double kLogTwoPi = 1.8378770664093453;
-  const Eigen::Vector3d whitened = llt.matrixL().solve(off);
-  const double half_log_determinant = llt.matrixLLT().diagonal().array().log().sum();
-  return -0.5 * whitened.squaredNorm() - half_log_determinant - 1.5 * kLogTwoPi;
-}
+/// How far an observation is off what was expected, judged by Student's t with so many degrees of freedom:
+/// fields beside strong steel are off by ten standard deviations, and by a Gaussian such a reading would
+/// decide between two places that both fail to explain it.
+struct Surprise {
+  Eigen::LLT<Eigen::Matrix3d> llt;  ///< of the expected covariance
+  Eigen::Vector3d off;
+  double squared = 0.0;  ///< in standard deviations
 
-/// The Kalman update; returns the change of the state.
-inline Vector correct(Covariance& covariance, const Observation& by_state, const Eigen::Vector3d& off,
-                      const Eigen::LLT<Eigen::Matrix3d>& llt) {
+  static constexpr double kFreedom = 4.0;
+
+  Surprise(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& off_uT) : llt(covariance), off(off_uT) {
+    squared = llt.matrixL().solve(off).squaredNorm();
+  }
+  /// Natural log of the density, but for a constant.
+  double log_density() const {
+    return -0.5 * (kFreedom + 3) * std::log1p(squared / kFreedom) -
+           llt.matrixLLT().diagonal().array().log().sum();
+  }
+  /// By how much the covariance must grow for the reading to be an ordinary one.
+  double inflation() const { return std::max(1.0, (kFreedom + squared) / (kFreedom + 3)); }
+};
+
+/// The Kalman update, a surprising observation counting less; returns the change of the state.
+inline Vector correct(Covariance& covariance, const Observation& by_state, const Surprise& surprise) {
   const Eigen::Matrix<double, kStates, 3> cross = covariance * by_state.transpose();
-  const Eigen::Matrix<double, kStates, 3> gain = llt.solve(cross.transpose()).transpose();
+  const Eigen::Matrix<double, kStates, 3> gain =
+      surprise.llt.solve(cross.transpose()).transpose() / surprise.inflation();
   covariance.noalias() -= gain * cross.transpose();
   covariance = (0.5 * (covariance + covariance.transpose())).eval();
-  return gain * off;
+  return gain * surprise.off;
 }
 
 /// Moves the map error on by `way_m`: a Matern 3/2 process of stationary variance `variance`, in its

@@ -93,23 +93,23 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   const Eigen::Matrix3d base_R_map = e.by_state.block<3, 3>(0, kMapError);
   const Eigen::Vector3d off_jumped = station.base_field_uT - e.without_map_error_uT;
   const Eigen::Vector3d off = off_jumped - base_R_map * mode.state.segment<3>(kMapError);
-  const Eigen::LLT<Eigen::Matrix3d> llt(e.by_state * mode.covariance * e.by_state.transpose() + noise);
+  const Surprise as_mapped(e.by_state * mode.covariance * e.by_state.transpose() + noise, off);
 
   const Eigen::Vector3d anything = field.spread_uT().cwiseAbs2() + e.error_variance_uT2;
   const auto others = e.by_state.leftCols<kMapError>();
-  const Eigen::LLT<Eigen::Matrix3d> llt_jumped(
-      others * mode.covariance.topLeftCorner<kMapError, kMapError>() * others.transpose() +
-      base_R_map * anything.asDiagonal() * base_R_map.transpose() + noise);
+  const Surprise changed(others * mode.covariance.topLeftCorner<kMapError, kMapError>() * others.transpose() +
+                             base_R_map * anything.asDiagonal() * base_R_map.transpose() + noise,
+                         off_jumped);
 
   const double way_m = std::min(station.since_last_m, 1.0);
   const double chance = std::clamp(1.0 - std::exp(-way_m / model.change_every_m), 1e-4, 0.5);
-  const double stayed = std::log1p(-chance) + log_density(off, llt);
-  const double jumped = std::log(chance) + log_density(off_jumped, llt_jumped);
+  const double stayed = std::log1p(-chance) + as_mapped.log_density();
+  const double jumped = std::log(chance) + changed.log_density();
   if (jumped > stayed) {
     forget_map_error(mode.state, mode.covariance, anything);
-    shift_pose(mode, correct(mode.covariance, e.by_state, off_jumped, llt_jumped));
+    shift_pose(mode, correct(mode.covariance, e.by_state, changed));
   } else {
-    shift_pose(mode, correct(mode.covariance, e.by_state, off, llt));
+    shift_pose(mode, correct(mode.covariance, e.by_state, as_mapped));
   }
   const double more = std::max(stayed, jumped), less = std::min(stayed, jumped);
   return more + std::log1p(std::exp(less - more));

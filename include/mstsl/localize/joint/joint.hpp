@@ -21,7 +21,7 @@ struct JointOptions {
   /// A pose is published from this probability on of being right (within 0.5 m and 10 deg).
   double localized_from = 0.999;
   /// ... once it has held for this way (m): what two near places show is nearly the same evidence.
-  double agree_m = 0.4;
+  double agree_m = 1.0;
   /// A published pose is taken back below this.
   double lost_below = 0.5;
   /// The places that a scan allows are searched for when "none of these" has more than this share ...
