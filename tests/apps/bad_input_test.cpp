@@ -196,10 +196,13 @@ TEST(BadInput, ALimitOnFileSizesIsOneSentence) {
   expect_refusal(printed, folder, "File too large");
 }
 
+// --foreground: else timeout sends the signal to the process and to its group, two in all, and the second
+// ends it.
 TEST(BadInput, AnInterruptEndsInOrder) {
   const std::string folder = Site::get().path("interrupted").string();
-  const Printed printed = run_shell("timeout --preserve-status -s INT 2 " + std::string(MSTSL_APP) +
-                                    " simulate --world office-wing --runs 500 -o " + folder);
+  const Printed printed =
+      run_shell("timeout --foreground --preserve-status -s INT 2 " + std::string(MSTSL_APP) +
+                " simulate --world office-wing --runs 500 -o " + folder);
   expect_refusal(printed, folder, "stopped");
 }
 
@@ -207,7 +210,7 @@ TEST(BadInput, APipeThatNobodyWritesToIsRefusedOrInterrupted) {
   const std::string pipe = Site::get().path("pipe").string();
   ASSERT_EQ(run_shell("mkfifo " + pipe).exit_status, 0);
   expect_refusal(run_app(Site::get().localize("pipe", "pipe.jsonl")), pipe, "not a regular file");
-  expect_refusal(run_shell("timeout --preserve-status -s INT 2 " + std::string(MSTSL_APP) +
+  expect_refusal(run_shell("timeout --foreground --preserve-status -s INT 2 " + std::string(MSTSL_APP) +
                            " localize --map " + pipe + " --field x.nc -o /dev/null x.mcap"),
                  pipe, "Interrupted");
 }
