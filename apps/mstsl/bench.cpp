@@ -29,6 +29,7 @@ struct Wish {
   int waypoints = PaperProtocolOptions{}.waypoints;
   int runs = PaperProtocolOptions{}.runs_per_waypoint;
   std::size_t fingerprints = 0;
+  double lane_spacing_m = sim::SurveyOptions{}.lane_spacing_m;
   double bias_uT = sim::MagnetometerOptions{}.bias_sigma_uT;
   double moved = PaperProtocolOptions{}.moved_fraction;
   std::optional<std::size_t> hypotheses;
@@ -43,6 +44,7 @@ PaperProtocolOptions options_of(const Session& session, const Wish& wish, const 
   options.waypoints = wish.waypoints;
   options.runs_per_waypoint = wish.runs;
   options.survey.survey.fingerprints = wish.fingerprints;
+  options.survey.survey.lane_spacing_m = wish.lane_spacing_m;
   options.robot.magnetometer.bias_sigma_uT = wish.bias_uT;
   options.moved_fraction = wish.moved;
   options.hypotheses = wish.hypotheses;
@@ -120,6 +122,9 @@ void add_bench(CLI::App& app, Session& session) {
       ->add_option("--fingerprints", wish->fingerprints,
                    "Survey so many (paper: 67238 and 118688); 0: one pass over every lane")
       ->check(CLI::Range(0, 10'000'000))
+      ->capture_default_str();
+  command->add_option("--lane-spacing", wish->lane_spacing_m, "Between the survey's parallel lines, m")
+      ->check(CLI::Range(0.05, 20.0))
       ->capture_default_str();
   command->add_option("--bias", wish->bias_uT, "SD of the magnetometer's constant error per run and axis, uT")
       ->check(CLI::Range(0.0, 100.0))
