@@ -61,8 +61,8 @@ class TiledRegression {
     return tiles;
   }
 
-  void fill(Cell corner, FieldMap& map) const {
-    const auto posterior = tile_.solve(samples_around(corner));
+  void fill(Cell corner, TileRegression::Workspace& workspace, FieldMap& map) const {
+    const auto posterior = tile_.solve(samples_around(corner), workspace);
     for (int row = 0; row < tile_.cells(); ++row)
       for (int column = 0; column < tile_.cells(); ++column) {
         const Cell cell{corner.column + column, corner.row + row};
@@ -155,8 +155,11 @@ void fill_by_gpr(const SurveyAnalysis& survey, const FieldArea& area, const Fill
     regression.fill_prior(map);
     const std::vector<Cell> tiles = regression.tiles();
     Meter meter(options.progress, tiles.size());
+    Spares<TileRegression::Workspace> workspaces;
     parallel_for(tiles.size(), options.threads, [&](std::size_t t) {
-      regression.fill(tiles[t], map);
+      auto workspace = workspaces.take();
+      regression.fill(tiles[t], workspace, map);
+      workspaces.give(std::move(workspace));
       meter.one_done();
     });
   }

@@ -15,6 +15,19 @@ double attention(double distance, double fading) {
   return distance <= 0.0 ? 1.0 : std::exp(-fading * distance * std::sqrt(distance));
 }
 
+/// One over the product of (i - j) over all j but i.
+constexpr auto kLagrangeFactors = [] {
+  constexpr int kSize = LagrangeStencil::kSize;
+  std::array<double, kSize> factors{};
+  for (int i = 0; i < kSize; ++i) {
+    double product = 1.0;
+    for (int j = 0; j < kSize; ++j)
+      if (j != i) product *= i - j;
+    factors[static_cast<std::size_t>(i)] = 1.0 / product;
+  }
+  return factors;
+}();
+
 }  // namespace
 
 LatticeBasis::LatticeBasis(const LatticeBasisOptions& o) : spacing_m_(o.node_spacing_m) {
@@ -46,11 +59,17 @@ LagrangeStencil LatticeBasis::stencil(double position_m) const {
   const double t = (position_m - first_node_m_) / spacing_m_;
   LagrangeStencil s;
   s.first = std::clamp(static_cast<int>(std::floor(t)) - kSize / 2 + 1, 0, nodes() - kSize);
-  for (int i = 0; i < kSize; ++i) {
-    double weight = 1.0;
-    for (int j = 0; j < kSize; ++j)
-      if (j != i) weight *= (t - s.first - j) / (i - j);
-    s.weights[static_cast<std::size_t>(i)] = weight;
+  // Weight i is the product of (u - j) over all j but i, over its value at u = i.
+  const double u = t - s.first;
+  double product = 1.0;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    s.weights[i] = kLagrangeFactors[i] * product;
+    product *= u - static_cast<double>(i);
+  }
+  product = 1.0;
+  for (std::size_t i = kSize; i-- > 0;) {
+    s.weights[i] *= product;
+    product *= u - static_cast<double>(i);
   }
   return s;
 }

@@ -1,5 +1,6 @@
 #include "mstsl/magnetic/tile_regression.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -18,6 +19,7 @@ using test::must;
 struct Case {
   const char* name;
   double length_scale_m, noise_ratio, lane_m, step_m;
+  double passes = 1.0;  ///< each sample counts so often
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
@@ -95,11 +97,14 @@ TEST_P(TileRegressionAgainstTheExactSolution, StaysWithinItsStatedError) {
   const Case c = GetParam();
   constexpr int kCells = 10;
   const double cell_m = 0.3 * c.length_scale_m;
-  const auto samples = survey(c, kCells * cell_m, 7.0 * c.length_scale_m, 1);
-  const auto exact = solve_exactly(c, kCells, cell_m, samples);
+  Case all_passes = c;
+  all_passes.noise_ratio /= std::sqrt(c.passes);
+  auto samples = survey(all_passes, kCells * cell_m, 7.0 * c.length_scale_m, 1);
+  const auto exact = solve_exactly(all_passes, kCells, cell_m, samples);
+  for (TileSample& sample : samples) sample.weight = c.passes;
+  const double dense_per_m2 = 2.0 * c.passes / (std::min(c.lane_m, c.length_scale_m) * c.step_m);
   for (const auto quality : {RegressionQuality::kFast, RegressionQuality::kExact}) {
-    const TileRegression tile(
-        {c.length_scale_m, c.noise_ratio, cell_m, kCells, 2.0 / (c.lane_m * c.step_m), quality});
+    const TileRegression tile({c.length_scale_m, c.noise_ratio, cell_m, kCells, dense_per_m2, quality});
     const Errors e = compare(tile.solve(samples), exact, c.noise_ratio);
     const bool is_exact = quality == RegressionQuality::kExact;
     EXPECT_LT(e.mean_rms, is_exact ? 0.01 : 0.04);
@@ -119,7 +124,10 @@ INSTANTIATE_TEST_SUITE_P(Surveys, TileRegressionAgainstTheExactSolution, ::testi
     Case{"LongScale",    3.0,  0.08, 2.0, 2.00},
     Case{"ShortScale",   0.2,  0.08, 0.3, 0.07},
     Case{"LittleNoise",  0.45, 0.01, 0.5, 0.20},
-    Case{"MuchNoise",    0.45, 1.0,  0.5, 0.20}), name_of);
+    Case{"MuchNoise",    0.45, 1.0,  0.5, 0.20},
+    Case{"SparseLanesDrivenOften", 0.45, 0.08, 2.0, 0.10, 100.0},
+    Case{"DrivenAThousandTimes",   0.45, 0.08, 0.7, 0.15, 1000.0},
+    Case{"LittleNoiseDrivenOften", 0.45, 0.01, 0.7, 0.15, 10.0}), name_of);
 // clang-format on
 
 }  // namespace

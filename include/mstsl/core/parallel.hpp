@@ -2,6 +2,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 namespace mstsl {
 
@@ -14,5 +17,27 @@ struct Threads {
 /// all. To stay reproducible each call writes only what belongs to its own i, and sums are taken afterwards
 /// in index order.
 void parallel_for(std::size_t count, Threads threads, const std::function<void(std::size_t)>& work);
+
+/// Memory that the calls of a `parallel_for` lend each other: each takes one, made where none is left, and
+/// gives it back.
+template <typename T>
+class Spares {
+ public:
+  T take() {
+    const std::lock_guard lock(mutex_);
+    if (spares_.empty()) return T();
+    T spare = std::move(spares_.back());
+    spares_.pop_back();
+    return spare;
+  }
+  void give(T spare) {
+    const std::lock_guard lock(mutex_);
+    spares_.push_back(std::move(spare));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<T> spares_;
+};
 
 }  // namespace mstsl

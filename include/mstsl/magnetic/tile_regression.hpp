@@ -61,7 +61,25 @@ class TileRegression {
     std::array<Eigen::MatrixXd, 3> mean;
     Eigen::MatrixXd variance;
   };
-  Posterior solve(std::span<const TileSample> samples) const;
+
+  /// Memory for one solution after another; one thread at a time may use it.
+  class Workspace {
+   public:
+    Workspace();
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+    ~Workspace();
+
+   private:
+    friend class TileRegression;
+    struct State;
+    std::unique_ptr<State> state_;
+  };
+  Posterior solve(std::span<const TileSample> samples, Workspace& workspace) const;
+  Posterior solve(std::span<const TileSample> samples) const {
+    Workspace workspace;
+    return solve(samples, workspace);
+  }
 
  private:
   struct State;
