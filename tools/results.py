@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Writes the tables of docs/results.md from the reports kept under docs/results/.
+
+    tools/results.py           write them
+    tools/results.py --check   exit 1 if docs/results.md is not what the reports say
+
+A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Reports are those of `mstsl bench --protocol
+paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json) and of tools/real_results.sh (real/METHOD_SEED.json).
+"""
+import json
+import math
+import pathlib
+import re
+import sys
+
+DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
+MODELS = ("gpr", "bilinear", "fingerprint")
+
+
+def reports(folder):
+    return {path.stem: json.loads(path.read_text()) for path in sorted((DOCS / "results" / folder).glob("*.json"))}
+
+
+def wilson_95(hits, of):
+    z, share = 1.959964, hits / of
+    middle = share + z * z / (2 * of)
+    half = z * math.sqrt(share * (1 - share) / of + z * z / (4 * of * of))
+    scale = 1 + z * z / of
+    return (middle - half) / scale, (middle + half) / scale
+
+
+def rate(shares):
+    """Several shares of runs as one, with its interval."""
+    hits, of = sum(share["hits"] for share in shares), sum(share["of"] for share in shares)
+    low, high = wilson_95(hits, of)
+    return f"{100 * hits / of:.1f} % ({100 * low:.0f} to {100 * high:.0f})"
+
+
+def model_of(report, model):
+    return next(entry["summary"] for entry in report["models"] if entry["model"] == model)
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def paper_table():
+    """Table I and Fig. 6 over all reported seeds of a world, and the seeds one by one."""
+    rows, by_world = [], {}
+    for name, report in reports("paper").items():
+        by_world.setdefault(report["world"], []).append(report)
+    for world, group in by_world.items():
+        for model in MODELS:
+            runs = [model_of(report, model) for report in group]
+            printed = group[0]["paper"]["initialisation"][model]
+            mean_m = sum(run["initial_error_m"]["mean"] for run in runs) / len(runs)
+            rows.append([world, model, rate([run["initialised"] for run in runs]), f"{100 * printed['initialised']:.0f} %",
+                         " ".join(f"{100 * run['initialised']['share']:.0f}" for run in runs),
+                         f"{mean_m:.2f} m", f"{printed['initial_error_mean_m']:.2f} m",
+                         rate([run["success"] for run in runs]),
+                         f"{100 * group[0]['paper']['success']:.0f} %" if model == "gpr" else ""])
+    return table(["world", "model", "within 3.0 m", "paper", "by seed", "mean error", "paper", "success", "paper"], rows)
+
+
+def limits_table():
+    """Initialised / success of the three models at each point of the three curves."""
+    rows, found = [], reports("limits")
+    points = sorted({name.split("_", 1)[1] for name in found}, key=lambda at: (at.split("_")[0], float(at.split("_")[1])))
+    for point in points:
+        curve, value = point.split("_")
+        row = [{"bias": "bias, uT", "moved": "share of the steel moved", "lines": "survey's lines, m apart"}[curve], value]
+        for world in ("corridor", "carpark"):
+            for model in MODELS:
+                summary = model_of(found[f"{world}_{point}"], model)
+                row.append(f"{100 * summary['initialised']['share']:.0f} / {100 * summary['success']['share']:.0f}")
+        rows.append(row)
+    return table(["over", "at"] + [f"{world}, {model}" for world in ("corridor", "car park") for model in MODELS], rows)
+
+
+def real_table():
+    rows = []
+    for name, data_sets in reports("real").items():
+        for data_set in data_sets:
+            of = data_set["evaluation"]
+            rows.append([data_set["dataset"], data_set["real"].split(";")[0], data_set["method"], str(of["success"]["of"]),
+                         rate([of["initialised"]]), rate([of["success"]]), rate([of["final_success"]]),
+                         f"{of['runs_wrong_at_0.999']['hits']}",
+                         f"{of['correct_distance_m']['median']:.1f}, {of['correct_distance_m']['max']:.1f} m",
+                         f"{100 * of['first_error_m']['median']:.1f} cm"])
+    return table(["data", "real", "method", "runs", "initialised", "success", "right at the end", "wrong at 0.999 (runs)",
+                  "CLD median, max", "first error, median"], rows)
+
+
+TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table}
+
+
+def main():
+    page = DOCS / "results.md"
+    text = page.read_text()
+    written = re.sub(r"(<!-- table (\w+) -->\n).*?(<!-- end -->)",
+                     lambda match: match[1] + TABLES[match[2]]() + "\n" + match[3], text, flags=re.DOTALL)
+    if sys.argv[1:] == ["--check"]:
+        if written != text:
+            sys.exit("docs/results.md does not say what docs/results/ holds: run tools/results.py")
+        return
+    page.write_text(written)
+
+
+if __name__ == "__main__":
+    main()
