@@ -82,8 +82,8 @@ int run_command_line(const std::vector<std::string>& arguments) {
   app.set_version_flag("--version", MSTSL_VERSION);
   app.require_subcommand(1);
   Session session;
-  for (const auto add :
-       {add_demo, add_simulate, add_map, add_localize, add_evaluate, add_bench, add_convert, add_info})
+  for (const auto add : {add_demo, add_simulate, add_calibrate, add_map, add_localize, add_evaluate,
+                         add_bench, add_convert, add_info})
     add(app, session);
   try {
     parse(app, arguments);

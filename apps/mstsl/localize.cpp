@@ -19,6 +19,7 @@
 #include "mstsl/io/tum.hpp"
 #include "mstsl/localize/methods.hpp"
 
+#include "calibration_option.hpp"
 #include "interrupt.hpp"
 #include "output_paths.hpp"
 #include "progress.hpp"
@@ -38,6 +39,7 @@ struct Wish {
   double localized_from = JointOptions{}.localized_from;
   fs::path output;
   std::optional<fs::path> tum;
+  std::optional<fs::path> calibration;
   std::vector<fs::path> logs;
   io::PlayOptions play;
 };
@@ -161,12 +163,15 @@ Result<LocalizerFactory> make_factory(const Session& session, const Wish& wish, 
 std::optional<Error> overwritten(const Wish& wish) {
   std::vector<fs::path> inputs = wish.logs, outputs{wish.output};
   inputs.insert(inputs.end(), {wish.map, wish.field});
+  if (wish.calibration) inputs.push_back(*wish.calibration);
   if (wish.tum) outputs.push_back(*wish.tum);
   return overwritten_input(outputs, inputs);
 }
 
 Result<Exit> localize(const Session& session, const Wish& wish) {
   if (auto error = overwritten(wish)) return *std::move(error);
+  const Result<MagnetometerCalibration> calibration = load_calibration(wish.calibration);
+  if (!calibration) return calibration.error();
   const Result<Maps> maps = load_maps(session, wish);
   if (!maps) return maps.error();
   const Result<LocalizerFactory> factory = make_factory(session, wish, *maps);
@@ -189,6 +194,7 @@ Result<Exit> localize(const Session& session, const Wish& wish) {
   const double before_s = cpu_s();
   io::PlayOptions play = wish.play;
   play.topics.imu.clear();
+  play.calibration = *calibration;
   const Result<io::PlayReport> played = io::play(wish.logs, play, on_header, on_event);
   if (!played) return played.error();
   if (!loop) return Error(wish.logs.front().string() + ": the log holds no event; nothing to localize");
@@ -233,6 +239,7 @@ void add_localize(CLI::App& app, Session& session) {
       ->add_option("logs", wish->logs,
                    "MCAP, rosbag2 folder, ROS 1 bag or CARMEN log; several are one after the other")
       ->required();
+  add_calibration_option(*command, wish->calibration);
   add_topic_options(*command, wish->play);
   add_common_options(*command, session);
   command->callback(

@@ -11,6 +11,7 @@
 #include "mstsl/io/map_server.hpp"
 #include "mstsl/magnetic/field_map_builder.hpp"
 
+#include "calibration_option.hpp"
 #include "interrupt.hpp"
 #include "map_report.hpp"
 #include "output_paths.hpp"
@@ -33,6 +34,7 @@ struct Wish {
   std::string model = "gpr";
   std::string quality = "fast";
   std::string bias = "auto";
+  std::optional<fs::path> calibration;
   FieldMapOptions build;
 };
 
@@ -53,6 +55,7 @@ std::vector<std::string> provenance(const Wish& wish) {
       fmt::format("mstsl {} map magnetic --model {} --quality {} --bias {} --resolution {}", MSTSL_VERSION,
                   wish.model, wish.quality, wish.bias, wish.build.resolution_m)};
   lines.push_back("map " + wish.map.filename().string());
+  if (wish.calibration) lines.push_back("calibration " + wish.calibration->filename().string());
   for (const fs::path& log : wish.logs) lines.push_back("log " + log.filename().string());
   return lines;
 }
@@ -72,13 +75,18 @@ Result<FieldMap> build(const Session& session, const SurveyAnalysis& analysis, c
 Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
   std::vector<fs::path> inputs = wish.logs;
   inputs.push_back(wish.map);
+  if (wish.calibration) inputs.push_back(*wish.calibration);
   if (auto error = overwritten_input({wish.output}, inputs)) return *std::move(error);
   if (!wish.initial_pose.empty())
     return Error("--initial-pose is not offered yet; give --pose-topic with the poses of the survey");
   const Result<io::MapFile> occupancy = io::read_map_file(wish.map);
   if (!occupancy) return occupancy.error();
   warn(session, occupancy->warnings);
-  const Result<SurveyLogs> logs = read_survey(session, wish.logs, wish.play);
+  const Result<MagnetometerCalibration> calibration = load_calibration(wish.calibration);
+  if (!calibration) return calibration.error();
+  io::PlayOptions play = wish.play;
+  play.calibration = *calibration;
+  const Result<SurveyLogs> logs = read_survey(session, wish.logs, play);
   if (!logs) return logs.error();
   warn(session, logs->warnings);
   const std::string survey = fmt::format("the survey in {}{}", wish.logs.front().string(),
@@ -126,6 +134,7 @@ void add_map_magnetic(CLI::App& map, Session& session) {
                    "always, or keep")
       ->check(CLI::IsMember({"auto", "remove", "keep"}))
       ->capture_default_str();
+  add_calibration_option(*command, wish->calibration);
   command->add_option("--resolution", wish->build.resolution_m, "Side of a cell, m")
       ->check(CLI::Range(0.005, 10.0))
       ->capture_default_str();

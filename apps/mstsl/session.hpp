@@ -28,6 +28,7 @@ void add_common_options(CLI::App& command, Session& session);
 // One file a subcommand, no algorithm in it: each adds itself to the command line and sets session.work when
 // chosen.
 void add_bench(CLI::App& app, Session& session);
+void add_calibrate(CLI::App& app, Session& session);
 void add_convert(CLI::App& app, Session& session);
 void add_demo(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);

@@ -1,23 +1,12 @@
 #include "map_settings.hpp"
 
-#include <cmath>
-
-#include <yaml-cpp/yaml.h>
-
-#include "file_problem.hpp"
+#include "yaml_values.hpp"
 
 namespace mstsl::io {
 namespace {
 
 constexpr double kMaxResolution_m = 100.0;  // a slip of units, not a map
 constexpr double kMaxOrigin_m = 1e8;        // projected coordinates (UTM) stay below 1e7
-
-/// What the parser quotes may be the middle of a binary file.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
-  return text;
-}
 
 YAML::Node need(const YAML::Node& root, const char* key) {
   const YAML::Node node = root[key];
@@ -29,24 +18,8 @@ YAML::Node need(const YAML::Node& root, const char* key) {
   return node;
 }
 
-template <typename T>
-T as(const YAML::Node& node, const char* key, const char* kind) {
-  try {
-    return node.as<T>();
-  } catch (const YAML::Exception&) {
-    throw FileProblem("'{}' (line {}) is not {}", key, node.Mark().line + 1, kind);
-  }
-}
-
-double finite_number(const YAML::Node& node, const char* key) {
-  const double value = as<double>(node, key, "a number");
-  if (!std::isfinite(value))
-    throw FileProblem("'{}' (line {}) is {}, not a finite number", key, node.Mark().line + 1, value);
-  return value;
-}
-
 double threshold(const YAML::Node& root, const char* key) {
-  const double value = finite_number(need(root, key), key);
+  const double value = yaml_finite_number(need(root, key), key);
   if (value < 0.0 || value > 1.0) throw FileProblem("'{}' is {}; it must lie between 0 and 1", key, value);
   return value;
 }
@@ -54,22 +27,23 @@ double threshold(const YAML::Node& root, const char* key) {
 Pose2 origin(const YAML::Node& node) {
   if (!node.IsSequence() || node.size() != 3)
     throw FileProblem("'origin' (line {}) is not a list of three numbers [x, y, yaw]", node.Mark().line + 1);
-  const Eigen::Vector2d position_m(finite_number(node[0], "origin"), finite_number(node[1], "origin"));
+  const Eigen::Vector2d position_m(yaml_finite_number(node[0], "origin"),
+                                   yaml_finite_number(node[1], "origin"));
   if (position_m.cwiseAbs().maxCoeff() > kMaxOrigin_m)
     throw FileProblem("'origin' (line {}) is more than {:g} m away", node.Mark().line + 1, kMaxOrigin_m);
-  return Pose2::from(position_m, finite_number(node[2], "origin"));
+  return Pose2::from(position_m, yaml_finite_number(node[2], "origin"));
 }
 
 /// 0, 1, true or false: map_server asks for a number, nav2 for either.
 bool flag(const YAML::Node& node, const char* key) {
-  const std::string text = as<std::string>(node, key, "0 or 1");
+  const std::string text = yaml_as<std::string>(node, key, "0 or 1");
   if (text == "0" || text == "1") return text == "1";
-  return as<bool>(node, key, "0 or 1");
+  return yaml_as<bool>(node, key, "0 or 1");
 }
 
 MapMode mode(const YAML::Node& node) {
   if (!node) return MapMode::kTrinary;
-  const std::string name = as<std::string>(node, "mode", "a word");
+  const std::string name = yaml_as<std::string>(node, "mode", "a word");
   if (name == "trinary") return MapMode::kTrinary;
   if (name == "scale") return MapMode::kScale;
   if (name == "raw") return MapMode::kRaw;
@@ -79,9 +53,9 @@ MapMode mode(const YAML::Node& node) {
 MapSettings settings_from(const YAML::Node& root) {
   if (!root.IsMap()) throw FileProblem("this is no map_server yaml: it has no keys");
   MapSettings settings;
-  settings.image = as<std::string>(need(root, "image"), "image", "a file name");
+  settings.image = yaml_as<std::string>(need(root, "image"), "image", "a file name");
   if (settings.image.empty()) throw FileProblem("'image' names no file");
-  settings.resolution_m = finite_number(need(root, "resolution"), "resolution");
+  settings.resolution_m = yaml_finite_number(need(root, "resolution"), "resolution");
   if (settings.resolution_m <= 0.0 || settings.resolution_m > kMaxResolution_m)
     throw FileProblem("'resolution' is {}; it must be a positive number of metres a pixel, {} at most",
                       settings.resolution_m, kMaxResolution_m);
@@ -98,12 +72,6 @@ MapSettings settings_from(const YAML::Node& root) {
 
 }  // namespace
 
-MapSettings parse_map_settings(const std::string& text) {
-  try {
-    return settings_from(YAML::Load(text));
-  } catch (const YAML::Exception& problem) {
-    throw FileProblem("line {} is not yaml: {}", problem.mark.line + 1, printable(problem.msg));
-  }
-}
+MapSettings parse_map_settings(const std::string& text) { return parse_yaml(text, settings_from); }
 
 }  // namespace mstsl::io

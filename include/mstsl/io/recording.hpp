@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mstsl/core/magnetometer_calibration.hpp"
 #include "mstsl/core/result.hpp"
 #include "mstsl/core/sensor_data.hpp"
 
@@ -27,6 +28,7 @@ struct PlayOptions {
   std::string base_frame = "base_link";
   double reorder_window_s =
       1.0;  ///< events this late are put back into order; later ones are dropped and counted
+  MagnetometerCalibration calibration;  ///< undone in every field reading
 };
 
 /// What was wrong with a log that could still be used, by kind ("late messages dropped" -> 12), and what it

@@ -62,6 +62,8 @@ Result<bool> Player::play(const std::filesystem::path& path) {
     if (!std::exchange(begun, true) && !begin_recording((*source)->name(), stamp)) return false;
     last_ = stamp;
     ++given_[event.index()];
+    if (const auto* field = std::get_if<FieldReading>(&event))
+      return on_event_(FieldReading{field->stamp, options_.calibration.apply(field->sensor_field_uT)});
     return on_event_(event);
   };
   EventFilter filter(report_, give);
