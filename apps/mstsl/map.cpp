@@ -10,6 +10,7 @@
 #include "mstsl/io/field_map_file.hpp"
 #include "mstsl/io/map_server.hpp"
 #include "mstsl/magnetic/field_map_builder.hpp"
+#include "mstsl/viz/field_sheet.hpp"
 
 #include "calibration_option.hpp"
 #include "interrupt.hpp"
@@ -35,6 +36,7 @@ struct Wish {
   std::string quality = "fast";
   std::string bias = "auto";
   std::optional<fs::path> calibration;
+  std::optional<fs::path> picture;
   FieldMapOptions build;
 };
 
@@ -76,7 +78,9 @@ Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
   std::vector<fs::path> inputs = wish.logs;
   inputs.push_back(wish.map);
   if (wish.calibration) inputs.push_back(*wish.calibration);
-  if (auto error = overwritten_input({wish.output}, inputs)) return *std::move(error);
+  std::vector<fs::path> outputs{wish.output};
+  if (wish.picture) outputs.push_back(*wish.picture);
+  if (auto error = overwritten_input(outputs, inputs)) return *std::move(error);
   if (!wish.initial_pose.empty())
     return Error("--initial-pose is not offered yet; give --pose-topic with the poses of the survey");
   const Result<io::MapFile> occupancy = io::read_map_file(wish.map);
@@ -101,6 +105,12 @@ Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
   field->height_m = logs->magnetometer_height_m;
   field->provenance = provenance(wish);
   if (const auto written = io::write_field_map(*field, wish.output); !written) return written.error();
+  if (wish.picture) {
+    const auto drawn =
+        viz::draw_field(occupancy->grid, *field, "Magnetic field of " + wish.map.filename().string())
+            .save(*wish.picture);
+    if (!drawn) return drawn.error();
+  }
   if (session.json)
     fmt::print("{}", map_report_json(*logs, *analysis, *field));
   else if (!session.quiet)
@@ -149,6 +159,8 @@ void add_map_magnetic(CLI::App& map, Session& session) {
   command->add_option("--base-frame", wish->play.base_frame, "Frame of the robot's base")
       ->capture_default_str()
       ->group("Names in the log");
+  command->add_option("--picture", wish->picture,
+                      "Also a picture of it, PNG or SVG: components, strength, standard deviation, coverage");
   command->add_option("-o,--output", wish->output, "Field map, NetCDF")->required();
   command->add_option("logs", wish->logs, "MCAP, rosbag2 folder or ROS 1 bag; each is a session of its own")
       ->required();

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr std::size_t kMaxCalibrationBytes = 1 << 20;
 
 YAML::Node three(const YAML::Node& node, const char* key, const char* what) {
   if (!node)
@@ -56,7 +56,7 @@ std::string list(const Vector3d& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g
 }  // namespace
 
 Result<MagnetometerCalibration> read_calibration(const std::filesystem::path& yaml) {
-  const Result<std::string> text = read_file(yaml, kMaxBytes);
+  const Result<std::string> text = read_file(yaml, kMaxCalibrationBytes);
   if (!text) return text.error();
   return guarded(yaml, [&] { return parse_yaml(*text, calibration_from); });
 }

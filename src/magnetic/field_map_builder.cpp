@@ -31,11 +31,16 @@ void describe(const SurveyAnalysis& survey, FieldMap& map) {
   };
   put("reading_sd", survey.calibration.reading_sd_uT, "_uT");
   if (survey.model == FieldModel::kGpr) put("variance_factor", survey.calibration.factor, "");
-  const HeldOutScore& held_out = survey.held_out.same_floor;
-  if (held_out.errors == 0) return;
-  put("held_out_rms", held_out.rms_uT, "_uT");
-  put("held_out_within_1_sigma", held_out.within_1_sigma, "");
-  put("held_out_within_2_sigma", held_out.within_2_sigma, "");
+  const auto put_score = [&](const std::string& name, const HeldOutScore& score) {
+    if (score.errors == 0) return;
+    put(name + "_rms", score.rms_uT, "_uT");
+    put(name + "_within_1_sigma", score.within_1_sigma, "");
+    put(name + "_within_2_sigma", score.within_2_sigma, "");
+  };
+  put_score("held_out", survey.held_out.same_floor);
+  put_score("held_out_uncalibrated", survey.held_out.same_floor_before);
+  put_score("between_lanes", survey.held_out.between_lanes);
+  put_score("between_lanes_uncalibrated", survey.held_out.between_lanes_before);
 }
 
 }  // namespace

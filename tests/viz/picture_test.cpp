@@ -1,14 +1,17 @@
 #include "mstsl/viz/picture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <png.h>
 
 #include "mstsl/io/file_bytes.hpp"
+#include "mstsl/viz/field_sheet.hpp"
 
 #include "test_support.hpp"
 
@@ -68,6 +71,13 @@ FieldMap field_over(const OccupancyGrid& map) {
     field.supported.push_back(1);
   }
   return field;
+}
+
+/// Where a field's sheet was saved; the file is gone with the test program.
+fs::path saved_sheet(const OccupancyGrid& map, const FieldMap& field) {
+  static const test::TemporaryFolder folder;
+  must(draw_field(map, field, "title", 900.0).save(folder.path() / "sheet.png"));
+  return folder.path() / "sheet.png";
 }
 
 const Eigen::Vector3i kWall(0x1f, 0x29, 0x33);
@@ -130,6 +140,36 @@ TEST(Picture, GivesTheSameBytesForTheSameRun) {
   }
   EXPECT_EQ(must(io::read_file(folder.path() / "a.png", 1 << 24)),
             must(io::read_file(folder.path() / "b.png", 1 << 24)));
+}
+
+TEST(FieldSheet, ShowsEveryComponentAndWhatWasCovered) {
+  const OccupancyGrid map = hall();
+  FieldMap field = field_over(map);
+  const std::string plain = must(io::read_file(saved_sheet(map, field), 1 << 26));
+  EXPECT_EQ(plain, must(io::read_file(saved_sheet(map, field), 1 << 26)));
+  // Each change shows: in one component, in the variance, in the coverage, in the lines.
+  FieldMap other = field;
+  for (Eigen::Vector3f& mean : other.mean_uT) mean.x() *= -1.0F;  // leaves the strength as it is
+  EXPECT_NE(must(io::read_file(saved_sheet(map, other), 1 << 26)), plain);
+  other = field;
+  for (std::size_t i = 0; i < other.variance_uT2.size() / 2; ++i) other.variance_uT2[i] *= 9.0F;
+  EXPECT_NE(must(io::read_file(saved_sheet(map, other), 1 << 26)), plain);
+  other = field;
+  std::fill(other.supported.begin(), other.supported.end(), std::uint8_t{0});
+  EXPECT_NE(must(io::read_file(saved_sheet(map, other), 1 << 26)), plain);
+  other = field;
+  other.fingerprints.push_back({{5.0, 5.0}, {20, 0, -40}, 0.0, 0});
+  EXPECT_NE(must(io::read_file(saved_sheet(map, other), 1 << 26)), plain);
+}
+
+TEST(FieldSheet, FitsAnyShapeOfMap) {
+  for (const auto& [columns, rows] : {std::pair{3, 3}, std::pair{2000, 4}, std::pair{4, 2000}}) {
+    const OccupancyGrid map({0.05, columns, rows, {}}, CellState::kFree);
+    const Canvas sheet = draw_field(map, field_over(map), "");
+    EXPECT_GT(sheet.height(), 100.0);
+    EXPECT_LT(sheet.height(), 4000.0);
+    EXPECT_EQ(drawn(sheet).width, 2000);
+  }
 }
 
 TEST(Picture, DrawsWhateverIsThereAndNothingElse) {
