@@ -59,8 +59,19 @@ std::string bias_text(const SurveyAnalysis& analysis) {
                         bias.base_bias_uT.x(), bias.base_bias_uT.y(), bias.sd_uT.x(), bias.sd_uT.y(),
                         bias.significant ? "significant" : "not significant",
                         analysis.bias_removed ? ", removed" : ", left in");
+    if (bias.has_soft_iron)
+      text += fmt::format(
+          "soft iron of log {}: horizontally x {:.3f} y {:.3f} shear {:.3f}, into z {:.3f} {:.3f} (+- "
+          "{:.3f})\n",
+          s + 1, bias.soft_iron(0, 0), bias.soft_iron(1, 1), bias.soft_iron(0, 1), bias.soft_iron(2, 0),
+          bias.soft_iron(2, 1), bias.soft_iron_sd);
   }
   return text;
+}
+
+std::array<std::array<double, 3>, 3> rows(const Eigen::Matrix3d& m) {
+  const auto row = [&m](int r) { return list(m.row(r).transpose().array()); };
+  return {row(0), row(1), row(2)};
 }
 
 nlohmann::ordered_json to_json(const HeldOutScore& score) {
@@ -75,7 +86,9 @@ nlohmann::ordered_json bias_json(const SurveyAnalysis& analysis) {
   for (const SessionBias& bias : analysis.bias.sessions)
     sessions.push_back({{"base_bias_uT", list(bias.base_bias_uT.array())},
                         {"sd_uT", list(bias.sd_uT.array())},
-                        {"significant", bias.significant}});
+                        {"significant", bias.significant},
+                        {"soft_iron", rows(bias.soft_iron)},
+                        {"soft_iron_sd", bias.soft_iron_sd}});
   return {{"pairs", analysis.bias.pairs}, {"removed", analysis.bias_removed}, {"logs", sessions}};
 }
 

@@ -29,18 +29,55 @@ Matrix3d map_R_base(const Fingerprint& f) {
   return Eigen::AngleAxisd(f.heading_rad, Vector3d::UnitZ()).toRotationMatrix();
 }
 
+/// Unknowns a session: bias x y z; stretch and shear of the horizontal field, its leaks into the vertical.
+constexpr Index kUnknowns = 7, kSoftUnknowns = 4;
+using Sensitivity = Eigen::Matrix<double, 3, kUnknowns>;
+
+/// How the corrected field of a fingerprint, map frame, follows its session's unknowns where the field is
+/// `typical_uT`. Its own reading would be more exact, and let an outlier speak for itself.
+Sensitivity sensitivity(const Fingerprint& f, const Vector3d& typical_uT) {
+  const Matrix3d rotation = map_R_base(f);
+  const Vector3d m = rotation.transpose() * typical_uT;
+  Sensitivity base = Sensitivity::Zero();
+  base.leftCols<3>() = -Matrix3d::Identity();
+  base.block<2, 2>(0, 3) << m.x(), m.y(), -m.y(), m.x();
+  base.block<1, 2>(2, 5) = m.head<2>().transpose();
+  return rotation * base;
+}
+
+Matrix3d soft_iron_from(const Eigen::Vector4d& unknowns) {
+  Matrix3d soft = Matrix3d::Identity();
+  soft.topLeftCorner<2, 2>() << 1 + unknowns(0), unknowns(1), unknowns(1), 1 - unknowns(0);
+  soft.bottomLeftCorner<1, 2>() = unknowns.tail<2>().transpose();
+  return soft;
+}
+
 struct Observation {
   const Fingerprint* a;
   const Fingerprint* b;
+  Sensitivity of_a = Sensitivity::Zero(), of_b = Sensitivity::Zero();
   std::size_t cluster = 0;
 
-  Vector3d difference() const { return a->field_uT - b->field_uT; }
-  /// What the biases of all sessions, one after the other, leave of the difference.
-  Vector3d residual(const VectorXd& biases) const {
-    return difference() - map_R_base(*a) * biases.segment<3>(3 * a->session) +
-           map_R_base(*b) * biases.segment<3>(3 * b->session);
+  /// What the errors of all sessions, one after the other, leave of the difference.
+  Vector3d residual(const VectorXd& errors) const {
+    return a->field_uT - b->field_uT + of_a * errors.segment<kUnknowns>(kUnknowns * a->session) -
+           of_b * errors.segment<kUnknowns>(kUnknowns * b->session);
   }
 };
+
+/// The median of each component.
+Vector3d typical_field_uT(std::span<const Fingerprint> fingerprints) {
+  Vector3d typical = Vector3d::Zero();
+  std::vector<double> values(fingerprints.size());
+  for (int c = 0; c < 3 && !values.empty(); ++c) {
+    std::transform(fingerprints.begin(), fingerprints.end(), values.begin(),
+                   [c](const Fingerprint& f) { return f.field_uT(c); });
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    typical(c) = *middle;
+  }
+  return typical;
+}
 
 /// Each fingerprint with its nearest neighbour of another heading or session; each pair once.
 std::vector<Observation> find_pairs(std::span<const Fingerprint> fingerprints,
@@ -49,6 +86,7 @@ std::vector<Observation> find_pairs(std::span<const Fingerprint> fingerprints,
   for (const Fingerprint& f : fingerprints) points.push_back(f.position_m);
   const PointBins bins(points, options.pair_distance_m);
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(options.pair_distance_m);
+  const Vector3d typical_uT = typical_field_uT(fingerprints);
   std::vector<Observation> pairs;
   std::vector<std::size_t> partner(points.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -65,7 +103,8 @@ std::vector<Observation> find_pairs(std::span<const Fingerprint> fingerprints,
     });
     const std::size_t j = partner[i];
     if (j < points.size() && (j > i || partner[j] != i))
-      pairs.push_back({&fingerprints[i], &fingerprints[j]});
+      pairs.push_back({&fingerprints[i], &fingerprints[j], sensitivity(fingerprints[i], typical_uT),
+                       sensitivity(fingerprints[j], typical_uT)});
   }
   return pairs;
 }
@@ -82,9 +121,9 @@ std::size_t assign_clusters(std::vector<Observation>& pairs) {
 }
 
 /// Huber's weights for residual lengths, with the scale of their median.
-std::vector<double> huber_weights(const std::vector<Observation>& pairs, const VectorXd& biases) {
+std::vector<double> huber_weights(const std::vector<Observation>& pairs, const VectorXd& errors) {
   std::vector<double> lengths;
-  for (const Observation& pair : pairs) lengths.push_back(pair.residual(biases).norm());
+  for (const Observation& pair : pairs) lengths.push_back(pair.residual(errors).norm());
   std::vector<double> sorted = lengths;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -95,28 +134,31 @@ std::vector<double> huber_weights(const std::vector<Observation>& pairs, const V
 }
 
 struct Solution {
-  VectorXd biases;
+  VectorXd errors;
   MatrixXd covariance;
 };
 
 /// The normal equations of the weighted least squares, and each cluster's part of the gradient.
 struct Normal {
-  Normal(Index size, std::size_t clusters, double prior, const VectorXd& biases)
-      : matrix(MatrixXd::Identity(size, size) * prior),
-        gradient(-prior * biases),
-        scores(MatrixXd::Zero(size, static_cast<Index>(clusters))) {}
+  Normal(std::size_t clusters, const VectorXd& prior, const VectorXd& errors)
+      : matrix(prior.asDiagonal()),
+        gradient(-prior.cwiseProduct(errors)),
+        scores(MatrixXd::Zero(prior.size(), static_cast<Index>(clusters))) {}
 
   void add(const Observation& pair, double weight, const Vector3d& residual) {
-    const Index a = 3 * pair.a->session, b = 3 * pair.b->session;
-    const Matrix3d ra = map_R_base(*pair.a), rb = map_R_base(*pair.b);
-    matrix.block<3, 3>(a, a) += weight * Matrix3d::Identity();
-    matrix.block<3, 3>(b, b) += weight * Matrix3d::Identity();
-    matrix.block<3, 3>(a, b) -= weight * ra.transpose() * rb;
-    matrix.block<3, 3>(b, a) -= weight * rb.transpose() * ra;
-    for (const auto& [row, part] : {std::pair{a, Vector3d(weight * ra.transpose() * residual)},
-                                    std::pair{b, Vector3d(-weight * rb.transpose() * residual)}}) {
-      gradient.segment<3>(row) += part;
-      scores.col(static_cast<Index>(pair.cluster)).segment<3>(row) += part;
+    const Index a = kUnknowns * pair.a->session, b = kUnknowns * pair.b->session;
+    const Sensitivity &ja = pair.of_a, jb = -pair.of_b;
+    const auto block = [this](Index row, Index column) {
+      return matrix.block<kUnknowns, kUnknowns>(row, column);
+    };
+    block(a, a) += weight * ja.transpose() * ja;
+    block(b, b) += weight * jb.transpose() * jb;
+    block(a, b) += weight * ja.transpose() * jb;
+    block(b, a) += weight * jb.transpose() * ja;
+    for (const auto& [row, j] : {std::pair{a, ja}, std::pair{b, jb}}) {
+      const Eigen::Vector<double, kUnknowns> part = -weight * j.transpose() * residual;
+      gradient.segment<kUnknowns>(row) += part;
+      scores.col(static_cast<Index>(pair.cluster)).segment<kUnknowns>(row) += part;
     }
   }
 
@@ -127,27 +169,52 @@ struct Normal {
 
 /// Iteratively reweighted least squares with a weak prior at 0; the covariance is the cluster-robust
 /// sandwich.
-Solution solve(const std::vector<Observation>& pairs, std::size_t clusters, Index size, double prior_sd_uT) {
+Solution solve(const std::vector<Observation>& pairs, std::size_t clusters, int sessions, double bias_sd_uT,
+               double soft_iron_sd) {
   constexpr int kIterations = 20;
-  Solution solution{VectorXd::Zero(size), MatrixXd::Identity(size, size) * prior_sd_uT * prior_sd_uT};
+  VectorXd prior_sd(kUnknowns * sessions);
+  for (Index i = 0; i < prior_sd.size(); ++i) prior_sd(i) = i % kUnknowns < 3 ? bias_sd_uT : soft_iron_sd;
+  Solution solution{VectorXd::Zero(prior_sd.size()), MatrixXd(prior_sd.cwiseAbs2().asDiagonal())};
   for (int iteration = 0; iteration < kIterations && !pairs.empty(); ++iteration) {
-    const std::vector<double> weights = huber_weights(pairs, solution.biases);
+    const std::vector<double> weights = huber_weights(pairs, solution.errors);
     double variance = 1e-12;
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      variance += weights[i] * pairs[i].residual(solution.biases).squaredNorm() /
+      variance += weights[i] * pairs[i].residual(solution.errors).squaredNorm() /
                   (3.0 * static_cast<double>(pairs.size()));
-    const double prior = variance / (prior_sd_uT * prior_sd_uT);
-    Normal normal(size, clusters, prior, solution.biases);
+    const VectorXd prior = variance * prior_sd.cwiseAbs2().cwiseInverse();
+    Normal normal(clusters, prior, solution.errors);
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      normal.add(pairs[i], weights[i], pairs[i].residual(solution.biases));
+      normal.add(pairs[i], weights[i], pairs[i].residual(solution.errors));
     const Eigen::LDLT<MatrixXd> factor(normal.matrix);
-    solution.biases += factor.solve(normal.gradient);
-    const MatrixXd inverse = factor.solve(MatrixXd::Identity(size, size));
+    solution.errors += factor.solve(normal.gradient);
+    const MatrixXd inverse = factor.solve(MatrixXd::Identity(prior.size(), prior.size()));
     const MatrixXd spread =
-        normal.scores * normal.scores.transpose() + MatrixXd::Identity(size, size) * prior * variance;
+        normal.scores * normal.scores.transpose() + MatrixXd((variance * prior).asDiagonal());
     solution.covariance = inverse * spread * inverse;
   }
   return solution;
+}
+
+bool is_soft_iron_significant(const Solution& solution, Index first, const SurveyBiasOptions& options) {
+  const Eigen::Vector4d soft = solution.errors.segment<kSoftUnknowns>(first + 3);
+  const Eigen::Vector4d sd = solution.covariance.diagonal().segment<kSoftUnknowns>(first + 3).cwiseSqrt();
+  return ((soft.array().abs() >= options.significant_sigmas * sd.array()) &&
+          (soft.array().abs() >= options.least_soft_iron))
+      .any();
+}
+
+SessionBias session_from(const Solution& solution, Index first, bool tells, bool has_soft_iron,
+                         const SurveyBiasOptions& options) {
+  SessionBias session;
+  session.base_bias_uT = solution.errors.segment<3>(first);
+  session.sd_uT = solution.covariance.diagonal().segment<3>(first).cwiseSqrt();
+  const double sigmas = (session.base_bias_uT.array().abs() / session.sd_uT.array()).maxCoeff();
+  session.has_soft_iron = has_soft_iron;
+  if (has_soft_iron) session.soft_iron = soft_iron_from(solution.errors.segment<kSoftUnknowns>(first + 3));
+  session.soft_iron_sd =
+      std::sqrt(solution.covariance.diagonal().segment<kSoftUnknowns>(first + 3).maxCoeff());
+  session.significant = tells && (sigmas >= options.significant_sigmas || has_soft_iron);
+  return session;
 }
 
 }  // namespace
@@ -157,27 +224,31 @@ bool SurveyBias::any_significant() const {
 }
 
 SurveyBias estimate_survey_bias(std::span<const Fingerprint> fingerprints, const SurveyBiasOptions& options) {
+  // The spread over a handful of clusters says nothing about itself.
+  constexpr std::size_t kFewestClusters = 8;
+  constexpr double kNone = 1e-9;  // a prior that leaves no soft iron
   int sessions = 0;
   for (const Fingerprint& f : fingerprints) sessions = std::max(sessions, f.session + 1);
   std::vector<Observation> pairs = find_pairs(fingerprints, options);
   const std::size_t clusters = assign_clusters(pairs);
-  const Solution solution = solve(pairs, clusters, 3 * sessions, options.prior_sd_uT);
-  SurveyBias result{std::vector<SessionBias>(static_cast<std::size_t>(sessions)), pairs.size()};
-  // The spread over a handful of clusters says nothing about itself.
-  constexpr std::size_t kFewestClusters = 8;
-  for (int s = 0; s < sessions; ++s) {
-    SessionBias& session = result.sessions[static_cast<std::size_t>(s)];
-    session.base_bias_uT = solution.biases.segment<3>(3 * s);
-    session.sd_uT = solution.covariance.diagonal().segment<3>(3 * s).cwiseSqrt();
-    const double sigmas = (session.base_bias_uT.array().abs() / session.sd_uT.array()).maxCoeff();
-    session.significant = clusters >= kFewestClusters && sigmas >= options.significant_sigmas;
+  const bool tells = clusters >= kFewestClusters;
+  const Solution bias_only = solve(pairs, clusters, sessions, options.prior_sd_uT, kNone);
+  const Solution whole =
+      tells ? solve(pairs, clusters, sessions, options.prior_sd_uT, options.soft_iron_sd) : bias_only;
+  SurveyBias result{{}, pairs.size()};
+  for (Index first = 0; first < kUnknowns * sessions; first += kUnknowns) {
+    const bool soft_iron = tells && is_soft_iron_significant(whole, first, options);
+    result.sessions.push_back(session_from(soft_iron ? whole : bias_only, first, tells, soft_iron, options));
   }
   return result;
 }
 
 void remove_bias(std::span<Fingerprint> fingerprints, const SurveyBias& bias) {
-  for (Fingerprint& f : fingerprints)
-    f.field_uT -= map_R_base(f) * bias.sessions[static_cast<std::size_t>(f.session)].base_bias_uT;
+  for (Fingerprint& f : fingerprints) {
+    const SessionBias& session = bias.sessions[static_cast<std::size_t>(f.session)];
+    const Matrix3d rotation = map_R_base(f);
+    f.field_uT = rotation * (session.soft_iron * (rotation.transpose() * f.field_uT) - session.base_bias_uT);
+  }
 }
 
 }  // namespace mstsl

@@ -114,6 +114,56 @@ TEST(SurveyBias, RemovingItMakesOppositePassesAgree) {
   for (const Fingerprint& f : survey) EXPECT_LT((f.field_uT - field_at(f.position_m)).norm(), 2.5);
 }
 
+/// What a robot with iron on it reads; lanes along x and along y, each both ways.
+std::vector<Fingerprint> crossing_lanes(const Eigen::Matrix3d& distortion, const Eigen::Vector3d& bias_uT,
+                                        double noise_uT, Random& random) {
+  std::vector<Fingerprint> survey;
+  const auto read = [&](const Eigen::Vector2d& p, double heading_rad) {
+    const Eigen::AngleAxisd map_R_base(heading_rad, Eigen::Vector3d::UnitZ());
+    Eigen::Vector3d base_uT = distortion * (map_R_base.inverse() * field_at(p)) + bias_uT;
+    for (int c = 0; c < 3; ++c) base_uT(c) += random.normal(0, noise_uT);
+    survey.push_back({p, map_R_base * base_uT, heading_rad, 0});
+  };
+  for (double lane = 0; lane < 8; lane += 1.0)
+    for (double way = 0; way < 8; way += 0.05) {
+      read({way, lane + random.normal(0, 0.02)}, 0.0);
+      read({way, lane + random.normal(0, 0.02)}, kPi);
+      read({lane + random.normal(0, 0.02), way}, kPi / 2);
+      read({lane + random.normal(0, 0.02), way}, -kPi / 2);
+    }
+  return survey;
+}
+
+TEST(SurveyBias, CrossingLanesShowSoftIron) {
+  for (std::uint64_t seed = 10; seed < 14; ++seed) {
+    Random random(seed);
+    Eigen::Matrix3d distortion = Eigen::Matrix3d::Identity();
+    distortion.topLeftCorner<2, 2>() << 1.06, 0.03, 0.03, 0.94;
+    distortion.bottomLeftCorner<1, 2>() << 0.04, -0.05;
+    std::vector<Fingerprint> survey = crossing_lanes(distortion, {3.0, -2.0, 0.0}, 0.3, random);
+    const SurveyBias found = estimate_survey_bias(survey);
+    ASSERT_TRUE(found.sessions[0].has_soft_iron) << "seed " << seed;
+    EXPECT_TRUE(found.sessions[0].significant);
+    remove_bias(survey, found);
+    double sum = 0.0;
+    for (const Fingerprint& f : survey)
+      sum += (f.field_uT - field_at(f.position_m)).squaredNorm() / static_cast<double>(survey.size());
+    EXPECT_LT(std::sqrt(sum), 0.75) << "seed " << seed;  // noise 0.52; uncorrected 4.3
+    EXPECT_FALSE(estimate_survey_bias(survey).sessions[0].has_soft_iron);
+  }
+}
+
+TEST(SurveyBias, WithoutSoftIronNoneIsFound) {
+  for (std::uint64_t seed = 20; seed < 28; ++seed) {
+    Random random(seed);
+    const auto survey = crossing_lanes(Eigen::Matrix3d::Identity(), {1.0, 0.0, 0.0}, 0.3, random);
+    const SurveyBias found = estimate_survey_bias(survey);
+    EXPECT_FALSE(found.sessions[0].has_soft_iron) << "seed " << seed;
+    EXPECT_EQ(found.sessions[0].soft_iron, Eigen::Matrix3d::Identity());
+    EXPECT_NEAR(found.sessions[0].base_bias_uT.x(), 1.0, 0.05);
+  }
+}
+
 TEST(SurveyBias, NoFingerprintsGiveNoSessions) { EXPECT_TRUE(estimate_survey_bias({}).sessions.empty()); }
 
 }  // namespace
