@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mstsl/core/random.hpp"
+#include "mstsl/datasets/aalto_robot.hpp"
 #include "mstsl/datasets/carmen.hpp"
 #include "mstsl/datasets/cea_corridor.hpp"
 #include "mstsl/datasets/dataset_writer.hpp"
@@ -51,6 +52,7 @@ Options options_of(const ConvertWish& wish) {
 }
 
 Result<datasets::Dataset> make_dataset(const ConvertWish& wish, const Random& random) {
+  if (wish.dataset == "aalto-robot") return datasets::aalto_robot(wish.input);
   if (wish.dataset == "cea-corridor")
     return datasets::cea_corridor(wish.input, options_of<datasets::CeaCorridorOptions>(wish), random);
   if (wish.dataset == "kaist-n1-7f")
@@ -63,15 +65,15 @@ Result<datasets::Dataset> make_dataset(const ConvertWish& wish, const Random& ra
 
 void report(const Session& session, const ConvertWish& wish, const datasets::Dataset& dataset) {
   if (session.json) {
-    const nlohmann::ordered_json summary = {{"folder", wish.output.string()},
-                                            {"map", (wish.output / "map.yaml").string()},
-                                            {"surveys", dataset.surveys.size()},
-                                            {"runs", dataset.runs.size()},
-                                            {"provenance", dataset.provenance}};
+    const nlohmann::ordered_json summary = {
+        {"folder", wish.output.string()},    {"map", (wish.output / "map.yaml").string()},
+        {"surveys", dataset.surveys.size()}, {"runs", dataset.runs.size()},
+        {"checks", dataset.checks.size()},   {"provenance", dataset.provenance}};
     fmt::print("{}\n", summary.dump());
   } else if (!session.quiet) {
-    fmt::print("{}\n{}: map.yaml, {} surveys, {} runs with their truth, README.txt\n", dataset.provenance,
-               wish.output.string(), dataset.surveys.size(), dataset.runs.size());
+    fmt::print("{}\n{}: map.yaml, {} surveys, {} runs with their truth, {} checks, README.txt\n",
+               dataset.provenance, wish.output.string(), dataset.surveys.size(), dataset.runs.size(),
+               dataset.checks.size());
   }
 }
 
@@ -93,12 +95,13 @@ void add_convert(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("convert", "Make maps, surveys and runs from public recordings");
   command->add_option("--dataset", wish->dataset, "Which recordings these are")
       ->required()
-      ->check(CLI::IsMember({"cea-corridor", "kaist-n1-7f", "carmen"}));
+      ->check(CLI::IsMember({"aalto-robot", "cea-corridor", "kaist-n1-7f", "carmen"}));
   command->add_option("input", wish->input, "Folder of the recordings; for carmen the *-corrected.log(.gz)")
       ->required()
       ->check(CLI::ExistingPath);
   command
-      ->add_option("-o,--output", wish->output, "Folder for map.yaml, survey_*, run_*, truth_*, README.txt")
+      ->add_option("-o,--output", wish->output,
+                   "Folder for map.yaml, survey_*, run_*, truth_*, check_*, README.txt")
       ->required();
   command->add_option("--runs", wish->runs, "How many runs to cut out")->check(CLI::Range(1, 10000));
   command->add_option("--run-length", wish->run_length_m, "Length of a run in m")
@@ -114,6 +117,10 @@ void add_convert(CLI::App& app, Session& session) {
                     "carmen: survey along the recorded way only, not along every lane");
   add_common_options(*command, session);
   command->callback([wish, &session] {
+    if (wish->dataset == "aalto-robot" &&
+        (wish->runs || wish->run_length_m || wish->bias_uT || wish->noise_uT))
+      throw CLI::ValidationError(
+          "aalto-robot has no runs: --runs, --run-length, --bias and --noise mean nothing");
     if (wish->dataset != "carmen" && (wish->mapped_share || wish->no_lanes))
       throw CLI::ValidationError("--mapped-share and --no-lanes are for --dataset carmen only");
     session.work = [wish, &session] { return convert(session, *wish); };

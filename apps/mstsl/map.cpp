@@ -30,6 +30,7 @@ struct Wish {
   fs::path map;
   fs::path output;
   std::vector<fs::path> logs;
+  std::vector<fs::path> checks;
   io::PlayOptions play;
   std::string initial_pose;
   std::string model = "gpr";
@@ -62,6 +63,18 @@ std::vector<std::string> provenance(const Wish& wish) {
   return lines;
 }
 
+/// Each log of its own: a drive on another day has another bias, and one bad drive should be seen as such.
+Result<std::vector<CheckedLog>> check(const Session& session, const Wish& wish, const io::PlayOptions& play,
+                                      const FieldMap& field) {
+  std::vector<CheckedLog> checked;
+  for (const fs::path& log : wish.checks) {
+    const Result<SurveyLogs> drive = read_survey(session, {log}, play);
+    if (!drive) return drive.error();
+    checked.push_back({log.filename().string(), check_field_map(field, drive->fingerprints)});
+  }
+  return checked;
+}
+
 void warn(const Session& session, const std::vector<std::string>& sentences) {
   if (session.quiet) return;
   for (const std::string& sentence : sentences) fmt::print(stderr, "mstsl: warning: {}\n", sentence);
@@ -76,6 +89,7 @@ Result<FieldMap> build(const Session& session, const SurveyAnalysis& analysis, c
 
 Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
   std::vector<fs::path> inputs = wish.logs;
+  inputs.insert(inputs.end(), wish.checks.begin(), wish.checks.end());
   inputs.push_back(wish.map);
   if (wish.calibration) inputs.push_back(*wish.calibration);
   std::vector<fs::path> outputs{wish.output};
@@ -104,6 +118,8 @@ Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
   if (interrupted()) return Error("interrupted; nothing was written");
   field->height_m = logs->magnetometer_height_m;
   field->provenance = provenance(wish);
+  const auto checked = check(session, wish, play, *field);
+  if (!checked) return checked.error();
   if (const auto written = io::write_field_map(*field, wish.output); !written) return written.error();
   if (wish.picture) {
     const auto drawn =
@@ -112,9 +128,10 @@ Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
     if (!drawn) return drawn.error();
   }
   if (session.json)
-    fmt::print("{}", map_report_json(*logs, *analysis, *field));
+    fmt::print("{}", map_report_json(*logs, *analysis, *field, *checked));
   else if (!session.quiet)
-    fmt::print("{}written to {}\n", map_report_text(*logs, *analysis, *field), wish.output.string());
+    fmt::print("{}written to {}\n", map_report_text(*logs, *analysis, *field, *checked),
+               wish.output.string());
   return Exit::kDone;
 }
 
@@ -159,6 +176,10 @@ void add_map_magnetic(CLI::App& map, Session& session) {
   command->add_option("--base-frame", wish->play.base_frame, "Frame of the robot's base")
       ->capture_default_str()
       ->group("Names in the log");
+  command->add_option(
+      "--check", wish->checks,
+      "Logs of other drives, with poses too: how well the map foretells their field (it is not "
+      "made from them)");
   command->add_option("--picture", wish->picture,
                       "Also a picture of it, PNG or SVG: components, strength, standard deviation, coverage");
   command->add_option("-o,--output", wish->output, "Field map, NetCDF")->required();

@@ -39,16 +39,15 @@ Cells count_cells(const FieldMap& map) {
   return cells;
 }
 
+std::string percents(const Eigen::Array3d& shares) {
+  return fmt::format("{:.0f} {:.0f} {:.0f} %", 100 * shares(0), 100 * shares(1), 100 * shares(2));
+}
+
 std::string score_line(const char* what, const HeldOutScore& before, const HeldOutScore& after) {
   return fmt::format(
-      "  {}: rms {}, within 1 sigma {:.0f} {:.0f} {:.0f} %, within 2 sigma {:.0f} {:.0f} {:.0f} % "
-      "(uncalibrated {:.0f} "
-      "{:.0f} {:.0f} and {:.0f} {:.0f} {:.0f} %); {} fingerprints\n",
-      what, three(after.rms_uT, " uT"), 100 * after.within_1_sigma(0), 100 * after.within_1_sigma(1),
-      100 * after.within_1_sigma(2), 100 * after.within_2_sigma(0), 100 * after.within_2_sigma(1),
-      100 * after.within_2_sigma(2), 100 * before.within_1_sigma(0), 100 * before.within_1_sigma(1),
-      100 * before.within_1_sigma(2), 100 * before.within_2_sigma(0), 100 * before.within_2_sigma(1),
-      100 * before.within_2_sigma(2), after.errors);
+      "  {}: rms {}, within 1 sigma {}, within 2 sigma {} (uncalibrated {} and {}); {} fingerprints\n", what,
+      three(after.rms_uT, " uT"), percents(after.within_1_sigma), percents(after.within_2_sigma),
+      percents(before.within_1_sigma), percents(before.within_2_sigma), after.errors);
 }
 
 std::string bias_text(const SurveyAnalysis& analysis) {
@@ -92,9 +91,28 @@ nlohmann::ordered_json bias_json(const SurveyAnalysis& analysis) {
   return {{"pairs", analysis.bias.pairs}, {"removed", analysis.bias_removed}, {"logs", sessions}};
 }
 
+std::string check_text(const CheckedLog& log) {
+  const FieldCheck& check = log.check;
+  if (check.score.errors == 0)
+    return fmt::format("  {}: none of its {} fingerprints lies on the map\n", log.name, check.without_value);
+  return fmt::format(
+      "  {}: rms {}, mean error {}, within 1 sigma {}, 2 sigma {}; {} fingerprints, {} off the map\n",
+      log.name, three(check.score.rms_uT, " uT"), three(check.mean_error_uT, " uT"),
+      percents(check.score.within_1_sigma), percents(check.score.within_2_sigma), check.score.errors,
+      check.without_value);
+}
+
+nlohmann::ordered_json to_json(const CheckedLog& log) {
+  nlohmann::ordered_json json{{"log", log.name}, {"off_the_map", log.check.without_value}};
+  json.update(to_json(log.check.score));
+  json["mean_error_uT"] = list(log.check.mean_error_uT);
+  return json;
+}
+
 }  // namespace
 
-std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analysis, const FieldMap& map) {
+std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analysis, const FieldMap& map,
+                            const std::vector<CheckedLog>& checks) {
   const FieldHyperparameters& h = analysis.hyperparameters.values;
   const Cells cells = count_cells(map);
   std::string text = fmt::format("{} fingerprints from {} field readings, {} outliers dropped\n",
@@ -116,12 +134,15 @@ std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analys
       score_line("between lanes", analysis.held_out.between_lanes_before, analysis.held_out.between_lanes);
   text += fmt::format("a later reading differs by {} where the map is sure\n",
                       three(analysis.calibration.reading_sd_uT, " uT"));
+  if (!checks.empty()) text += "other drives, x y z:\n";
+  for (const CheckedLog& log : checks) text += check_text(log);
   text += fmt::format("{} x {} cells of {} m, {} with a value, {} near a fingerprint\n", map.geometry.columns,
                       map.geometry.rows, map.geometry.resolution_m, cells.valued, cells.supported);
   return text;
 }
 
-std::string map_report_json(const SurveyLogs& logs, const SurveyAnalysis& analysis, const FieldMap& map) {
+std::string map_report_json(const SurveyLogs& logs, const SurveyAnalysis& analysis, const FieldMap& map,
+                            const std::vector<CheckedLog>& checks) {
   const Cells cells = count_cells(map);
   nlohmann::ordered_json json{{"model", to_string(map.model)},
                               {"fingerprints", logs.fingerprints.size()},
@@ -137,6 +158,8 @@ std::string map_report_json(const SurveyLogs& logs, const SurveyAnalysis& analys
                       {"same_floor_uncalibrated", to_json(analysis.held_out.same_floor_before)},
                       {"between_lanes", to_json(analysis.held_out.between_lanes)},
                       {"between_lanes_uncalibrated", to_json(analysis.held_out.between_lanes_before)}};
+  if (!checks.empty()) json["checks"] = nlohmann::ordered_json::array();
+  for (const CheckedLog& log : checks) json["checks"].push_back(to_json(log));
   json["cells"] = {{"columns", map.geometry.columns},
                    {"rows", map.geometry.rows},
                    {"resolution_m", map.geometry.resolution_m},

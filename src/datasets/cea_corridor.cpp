@@ -21,6 +21,7 @@ namespace {
 constexpr std::uint64_t kSurveyStream = 1;
 constexpr std::uint64_t kWindowStream = 2;
 constexpr std::uint64_t kRunStream = 3;
+constexpr std::uint64_t kCheckStream = 4;
 
 /// Floors are at least this far apart; one floor's rows scatter by 0.7 m in z, so says the data.
 constexpr double kFloorHeight_m = 2.0;
@@ -43,7 +44,7 @@ std::string provenance(const CeaCorridorOptions& options, double survey_m, doubl
 
 REAL: the magnetic field. survey_00.mcap holds that of floor_a_survey.csv ({:.0f} m), run_*.mcap stretches
 of {:.0f} m of floor_a_query.csv ({:.0f} m), another pass through the same corridors: no run holds a
-reading of the survey. The paths are the recorded ones, the heading their direction over {} m. Each run
+reading of the survey. check_00.mcap holds all of floor_a_query.csv with its positions. The paths are the recorded ones, the heading their direction over {} m. Each run
 starts with a random heading and turns in place; while it turns, the field is that of its first row.
 
 SIMULATED: walls (tubes {} m wide around both passes), lidar (UTM-30LX), wheel odometry.
@@ -102,6 +103,7 @@ Result<Dataset> cea_corridor(const std::filesystem::path& folder, const CeaCorri
     dataset.runs.push_back(
         measured_run(world, std::move(rows), options.robot, random.fork(kRunStream).fork(i)));
   }
+  dataset.checks.push_back(measured_survey(world, *query, options.robot, random.fork(kCheckStream)));
   return dataset;
 }
 

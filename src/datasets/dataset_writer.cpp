@@ -27,14 +27,16 @@ std::string file_name(std::string_view kind, std::size_t number, std::string_vie
 
 /// A log in a folder that this conversion leaves as it is: it would be mistaken for one of these.
 std::optional<std::string> foreign_log(const fs::path& folder, const Dataset& dataset) {
-  static const std::regex kLogName(R"((survey|run|truth)_(\d{1,6})\.(mcap|csv))");
+  static const std::regex kLogName(R"((survey|run|truth|check)_(\d{1,6})\.(mcap|csv))");
   std::error_code problem;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
     const std::string name = entry.path().filename().string();
     std::smatch parts;
     if (!std::regex_match(name, parts, kLogName)) continue;
     const std::size_t number = std::stoul(parts[2]);
-    const std::size_t count = parts[1] == "survey" ? dataset.surveys.size() : dataset.runs.size();
+    const std::size_t count = parts[1] == "survey"  ? dataset.surveys.size()
+                              : parts[1] == "check" ? dataset.checks.size()
+                                                    : dataset.runs.size();
     if (number >= count || name != file_name(parts[1].str(), number, parts[3].str())) return name;
   }
   return std::nullopt;
@@ -70,8 +72,8 @@ Result<void> write_log(const Log& log, const fs::path& file, const std::string& 
   return writer->close();
 }
 
-Result<void> write_survey(const Log& log, const fs::path& folder, std::size_t number) {
-  return write_log(log, folder / file_name("survey", number, "mcap"), "/ground_truth", {});
+Result<void> write_with_truth(const Log& log, const fs::path& file) {
+  return write_log(log, file, "/ground_truth", {});
 }
 
 Result<void> write_run(const Log& log, const fs::path& folder, std::size_t number) {
@@ -91,14 +93,19 @@ Result<void> write_dataset(const Dataset& dataset, const fs::path& folder,
   if (const Result<void> map = io::write_map(dataset.map, folder / "map.yaml"); !map) return map;
   if (const Result<void> readme = io::write_file(folder / "README.txt", dataset.provenance); !readme)
     return readme;
-  const std::size_t logs = dataset.surveys.size() + dataset.runs.size();
-  for (std::size_t i = 0; i < logs; ++i) {
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(logs)))
-      return Error(fmt::format("stopped; {} holds {} of {} logs", folder.string(), i, logs));
-    const std::size_t surveys = dataset.surveys.size();
-    const Result<void> written = i < surveys ? write_survey(dataset.surveys[i], folder, i)
-                                             : write_run(dataset.runs[i - surveys], folder, i - surveys);
-    if (!written) return written;
+  std::vector<std::function<Result<void>()>> writers;
+  for (std::size_t i = 0; i < dataset.surveys.size(); ++i)
+    writers.push_back(
+        [&, i] { return write_with_truth(dataset.surveys[i], folder / file_name("survey", i, "mcap")); });
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i)
+    writers.push_back([&, i] { return write_run(dataset.runs[i], folder, i); });
+  for (std::size_t i = 0; i < dataset.checks.size(); ++i)
+    writers.push_back(
+        [&, i] { return write_with_truth(dataset.checks[i], folder / file_name("check", i, "mcap")); });
+  for (std::size_t i = 0; i < writers.size(); ++i) {
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(writers.size())))
+      return Error(fmt::format("stopped; {} holds {} of {} logs", folder.string(), i, writers.size()));
+    if (const Result<void> written = writers[i](); !written) return written;
   }
   return {};
 }

@@ -80,6 +80,34 @@ Result<std::vector<std::size_t>> places_of(std::span<const std::string_view> nam
 
 using Columns = std::vector<std::vector<double>>;
 
+/// Which fields of a line are asked for, what they are called, and how many fields there must be.
+struct Layout {
+  std::vector<std::size_t> places;
+  std::vector<std::string> names;
+  std::size_t width = 0;
+  std::string_view width_from;
+};
+
+Result<Columns> parse_rows(Lines& lines, const Layout& layout) {
+  Columns columns(layout.places.size());
+  std::vector<std::string_view> fields;
+  while (const auto line = lines.next()) {
+    split(*line, fields);
+    if (fields.size() != layout.width)
+      return Error(fmt::format("line {} has {} fields where {} {}; is the file cut off?", lines.number(),
+                               fields.size(), layout.width_from, layout.width));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::string_view field = fields[layout.places[i]];
+      const auto number = finite_number(field);
+      if (!number)
+        return Error(fmt::format("line {}: '{}' in column '{}' is no finite number", lines.number(), field,
+                                 layout.names[i]));
+      columns[i].push_back(*number);
+    }
+  }
+  return columns;
+}
+
 Result<Columns> parse(std::string_view text, std::span<const std::string_view> names) {
   Lines lines(text);
   std::vector<std::string_view> fields;
@@ -88,25 +116,20 @@ Result<Columns> parse(std::string_view text, std::span<const std::string_view> n
   split(header, fields);
   const Result<std::vector<std::size_t>> places = places_of(names, fields);
   if (!places) return places.error();
-  const std::size_t width = fields.size();
-
-  Columns columns(names.size());
-  while (const auto line = lines.next()) {
-    split(*line, fields);
-    if (fields.size() != width)
-      return Error(fmt::format("line {} has {} fields where the first line names {}; is the file cut off?",
-                               lines.number(), fields.size(), width));
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::string_view field = fields[(*places)[i]];
-      const auto number = finite_number(field);
-      if (!number)
-        return Error(
-            fmt::format("line {}: '{}' in column '{}' is no finite number", lines.number(), field, names[i]));
-      columns[i].push_back(*number);
-    }
-  }
-  if (columns.empty() || columns.front().empty()) return Error("there is no row under its first line");
+  Result<Columns> columns =
+      parse_rows(lines, {*places, {names.begin(), names.end()}, fields.size(), "the first line names"});
+  if (columns && (columns->empty() || columns->front().empty()))
+    return Error("there is no row under its first line");
   return columns;
+}
+
+Layout numbered(std::size_t width) {
+  Layout layout{{}, {}, width, "there should be"};
+  for (std::size_t i = 0; i < width; ++i) {
+    layout.places.push_back(i);
+    layout.names.push_back(std::to_string(i + 1));
+  }
+  return layout;
 }
 
 }  // namespace
@@ -117,6 +140,16 @@ Result<Columns> read_number_columns(const std::filesystem::path& file,
   if (!text) return text.error();
   Result<Columns> columns = parse(*text, names);
   if (!columns) return columns.error().within(file.string());
+  return columns;
+}
+
+Result<Columns> read_number_rows(const std::filesystem::path& file, std::size_t width) {
+  const Result<std::string> text = io::read_file(file, kLimitBytes);
+  if (!text) return text.error();
+  Lines lines(*text);
+  Result<Columns> columns = parse_rows(lines, numbered(width));
+  if (!columns) return columns.error().within(file.string());
+  if (columns->front().empty()) return Error(file.string() + ": there is no row in it");
   return columns;
 }
 

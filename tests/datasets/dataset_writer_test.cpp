@@ -34,11 +34,12 @@ Log small_log() {
   return log;
 }
 
-Dataset small_dataset(std::size_t surveys, std::size_t runs) {
+Dataset small_dataset(std::size_t surveys, std::size_t runs, std::size_t checks = 0) {
   GridGeometry geometry;
   geometry.columns = geometry.rows = 20;
   return {OccupancyGrid(geometry, CellState::kFree), std::vector<Log>(surveys, small_log()),
-          std::vector<Log>(runs, small_log()), "all of it is made up\n"};
+          std::vector<Log>(runs, small_log()), "all of it is made up\n",
+          std::vector<Log>(checks, small_log())};
 }
 
 std::vector<SensorEvent> played(const std::filesystem::path& file, const std::string& pose_topic) {
@@ -88,6 +89,15 @@ TEST(DatasetWriter, PutsTheTruthIntoSurveysAndNeverIntoRuns) {
   const auto truth = test::must(io::read_truth(folder.path() / "truth_00.csv"));
   ASSERT_EQ(truth.size(), 10U);
   EXPECT_NEAR(truth.back().map_T_base.x, 0.45, 1e-9);
+}
+
+TEST(DatasetWriter, PutsTheTruthIntoChecks) {
+  const test::TemporaryFolder folder;
+  test::must(write_dataset(small_dataset(0, 0, 1), folder.path()));
+  EXPECT_EQ(count_of<PoseReading>(played(folder.path() / "check_00.mcap", "/ground_truth")), 10U);
+  const auto fewer = write_dataset(small_dataset(0, 0, 0), folder.path());
+  ASSERT_FALSE(fewer.ok());
+  EXPECT_NE(fewer.error().message().find("check_00.mcap"), std::string::npos) << fewer.error().message();
 }
 
 TEST(DatasetWriter, KeepsTheFieldAndItsMounting) {

@@ -73,5 +73,17 @@ TEST_F(NumberColumns, SayWhichFileIsAbsent) {
   EXPECT_NE(columns.error().message().find("absent.csv"), std::string::npos);
 }
 
+TEST_F(NumberColumns, OfAFileWithoutNamesAreAllOfThem) {
+  std::ofstream(file_, std::ios::binary) << "1,-2\r\n\n3,4e1\n";
+  const auto columns = test::must(read_number_rows(file_, 2));
+  EXPECT_EQ(columns, (std::vector<std::vector<double>>{{1.0, 3.0}, {-2.0, 40.0}}));
+  const auto wrong = read_number_rows(file_, 3);
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_NE(wrong.error().message().find("line 1 has 2 fields where there should be 3"), std::string::npos)
+      << wrong.error().message();
+  std::ofstream(file_, std::ios::binary) << "\n\n";
+  EXPECT_FALSE(read_number_rows(file_, 2).ok());
+}
+
 }  // namespace
 }  // namespace mstsl::datasets

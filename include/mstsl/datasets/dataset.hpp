@@ -27,6 +27,7 @@ struct Dataset {
   std::vector<Log> surveys;  ///< their truth belongs into the log
   std::vector<Log> runs;     ///< their truth does not
   std::string provenance;    ///< what is real, what is simulated, from where; plain text for people
+  std::vector<Log> checks;   ///< other drives, truth within: what a map of the field is held against
 };
 
 /// How many runs are cut out of a recording, and how long they are.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -16,5 +17,9 @@ namespace mstsl::datasets {
 /// finite number, a file without a row.
 Result<std::vector<std::vector<double>>> read_number_columns(const std::filesystem::path& file,
                                                              std::span<const std::string_view> names);
+
+/// The same from a file whose first line is a row already: `width` columns, all of them.
+Result<std::vector<std::vector<double>>> read_number_rows(const std::filesystem::path& file,
+                                                          std::size_t width);
 
 }  // namespace mstsl::datasets
