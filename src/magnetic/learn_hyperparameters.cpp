@@ -9,8 +9,8 @@
 #include "mstsl/magnetic/gaussian_process.hpp"
 #include "mstsl/magnetic/tile_regression.hpp"
 
+#include "learning_blocks.hpp"
 #include "maximise.hpp"
-#include "point_bins.hpp"
 
 namespace mstsl {
 namespace {
@@ -20,7 +20,6 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr std::size_t kFewestFingerprints = 20;
-constexpr std::size_t kFewestInBlock = 40;
 
 /// Log-normal prior of one parameter, and the range in which it is looked for.
 struct Prior {
@@ -37,47 +36,16 @@ struct Block {
   MatrixXd values;  ///< standardised, points x 3
 };
 
-/// Standard deviation of each component over the surveyed area, every half metre counting once.
-struct Moments {
-  Eigen::Array3d mean, sd;
-};
-Moments moments_over_area(std::span<const Fingerprint> fingerprints, const std::vector<Vector2d>& points) {
-  constexpr double kBin_m = 0.5;
-  std::vector<Eigen::Array3d> means;
-  for (const auto& bin : PointBins(points, kBin_m).occupied()) {
-    Eigen::Array3d sum = Eigen::Array3d::Zero();
-    for (const std::size_t i : bin) sum += fingerprints[i].field_uT.array();
-    means.push_back(sum / static_cast<double>(bin.size()));
-  }
-  const auto n = static_cast<double>(means.size());
-  Eigen::Array3d mean = Eigen::Array3d::Zero(), variance = Eigen::Array3d::Zero();
-  for (const auto& m : means) mean += m / n;
-  for (const auto& m : means) variance += (m - mean).square() / std::max(n - 1.0, 1.0);
-  constexpr double kLeast_uT = 0.05;  // a perfectly flat field: the quietest sensor's noise
-  return {mean, variance.sqrt().max(kLeast_uT)};
-}
-
-/// Blocks of the given side, spread evenly over those that hold enough samples.
-std::vector<Block> choose_blocks(std::span<const Fingerprint> fingerprints,
-                                 const std::vector<Vector2d>& points, const Moments& moments, double side_m,
-                                 const LearningOptions& options) {
-  auto squares = PointBins(points, side_m).occupied();
-  const auto fewest = std::min(kFewestInBlock, fingerprints.size() / 2);
-  std::erase_if(squares, [&](const auto& square) { return square.size() < fewest; });
-  const std::size_t count = std::min(options.blocks, squares.size());
-  std::vector<Block> blocks(count);
-  for (std::size_t b = 0; b < count; ++b) {
-    const auto& square = squares[b * squares.size() / count];
-    const std::size_t stride = (square.size() + options.samples_per_block - 1) / options.samples_per_block;
-    std::vector<std::size_t> chosen;
-    // Neighbours on a lane stay together in pairs: they tell noise from a rough field.
-    for (std::size_t k = 0; k < square.size(); ++k)
-      if ((k / 2) % stride == 0) chosen.push_back(square[k]);
-    blocks[b].values.resize(static_cast<Eigen::Index>(chosen.size()), 3);
+std::vector<Block> standardised_blocks(std::span<const Fingerprint> fingerprints, const Moments& moments,
+                                       double side_m, const LearningOptions& options) {
+  std::vector<Block> blocks;
+  for (const std::vector<Fingerprint>& chosen : learning_blocks(fingerprints, side_m, options)) {
+    Block& block = blocks.emplace_back();
+    block.values.resize(static_cast<Eigen::Index>(chosen.size()), 3);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      blocks[b].points_m.push_back(points[chosen[k]]);
-      blocks[b].values.row(static_cast<Eigen::Index>(k)) =
-          ((fingerprints[chosen[k]].field_uT.array() - moments.mean) / moments.sd).transpose();
+      block.points_m.push_back(chosen[k].position_m);
+      block.values.row(static_cast<Eigen::Index>(k)) =
+          ((chosen[k].field_uT.array() - moments.mean) / moments.sd).transpose();
     }
   }
   return blocks;
@@ -182,7 +150,7 @@ Result<LearnedHyperparameters> learn_hyperparameters(std::span<const Fingerprint
   Maximum best;
   constexpr int kRounds = 3;  // the length scale decides the blocks that it is learned from
   for (int round = 0; round < kRounds; ++round) {
-    blocks = choose_blocks(fingerprints, points, moments, side_m, options);
+    blocks = standardised_blocks(fingerprints, moments, side_m, options);
     best = search(blocks, options.threads);
     const double wanted_m = options.block_side * std::exp(best.at(0));
     if (wanted_m <= 1.1 * side_m) break;

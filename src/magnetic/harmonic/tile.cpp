@@ -1,0 +1,205 @@
+#include "tile.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <utility>
+#include <vector>
+
+#include "../dense/spd_inverse.hpp"
+#include "waves.hpp"
+
+namespace mstsl {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Array3d;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Wave = WaveBox::Wave;
+
+/// Components that one potential ties together: each wave's field is `factor` times (-i direction, sign), all
+/// times its amplitude.
+struct Part {
+  Array3d component;  ///< 1 for those that belong to it
+  double vertical;    ///< sign of B_z
+};
+
+std::vector<Part> parts_of(SourceSide side) {
+  if (side == SourceSide::kBelow) return {{{1, 1, 1}, 1.0}};
+  if (side == SourceSide::kAbove) return {{{1, 1, 1}, -1.0}};
+  return {{{1, 1, 0}, 1.0}, {{0, 0, 1}, 1.0}};
+}
+
+/// Component c of a wave's field where its phase is zero, for the complex amplitude 1.
+Complex field_of(const Wave& wave, const Part& part, int c) {
+  if (part.component(c) == 0.0) return 0.0;
+  return c == 2 ? Complex(part.vertical * wave.amplitude, 0.0)
+                : Complex(0.0, -wave.direction(c) * wave.amplitude);
+}
+
+/// Products of two waves' fields, weighted and summed over components: with and without conjugation of the
+/// second. Both are real.
+struct FieldProduct {
+  double same, conjugate;
+};
+FieldProduct product_of(const Wave& i, const Wave& j, const Array3d& weights) {
+  const double amplitudes = i.amplitude * j.amplitude;
+  const double horizontal =
+      weights(0) * i.direction.x() * j.direction.x() + weights(1) * i.direction.y() * j.direction.y();
+  return {amplitudes * (weights(2) - horizontal), amplitudes * (weights(2) + horizontal)};
+}
+
+}  // namespace
+
+struct HarmonicTile::State : WaveBox {
+  using WaveBox::WaveBox;
+};
+
+/// One tile's tables and matrices; their memory serves the next tile.
+struct HarmonicTile::Workspace::State {
+  void sum(const WaveBox& box, std::span<const TileSample> samples);
+  void solve(const WaveBox& box, const Part& part, const Array3d& information);
+  void mean(const WaveBox& box, const Part& part, Posterior& posterior);
+  void variance(const WaveBox& box, const Part& part, Posterior& posterior);
+
+  MatrixProduct product;
+  SpdInverse inverse;
+  Harmonics x, y;
+  WaveTable weights;                ///< summed over samples
+  std::array<WaveTable, 3> values;  ///< the same times their values
+  WaveTable at_cells;
+  MatrixXd precision;  ///< unknowns: cosine and sine of each wave
+  VectorXd solution;
+  const MatrixXd* covariance = nullptr;
+};
+
+void HarmonicTile::Workspace::State::sum(const WaveBox& box, std::span<const TileSample> samples) {
+  const double low = -box.halo_m, high = box.length_m + box.halo_m;
+  std::vector<const TileSample*> near;
+  for (const TileSample& s : samples)
+    if ((s.position_m.array() >= low).all() && (s.position_m.array() <= high).all()) near.push_back(&s);
+  const auto n = static_cast<Index>(near.size());
+  VectorXd px(n), py(n), w(n);
+  for (Index i = 0; i < n; ++i) {
+    px(i) = near[static_cast<std::size_t>(i)]->position_m.x();
+    py(i) = near[static_cast<std::size_t>(i)]->position_m.y();
+    w(i) = near[static_cast<std::size_t>(i)]->weight;
+  }
+  x.evaluate(px, box.period_m, 2 * box.highest);
+  y.evaluate(py, box.period_m, 2 * box.highest);
+  sum_over_samples(x, y, w, 2 * box.highest, product, weights);
+  VectorXd wv(n);
+  for (int c = 0; c < 3; ++c) {
+    for (Index i = 0; i < n; ++i) wv(i) = w(i) * near[static_cast<std::size_t>(i)]->value(c);
+    sum_over_samples(x, y, wv, box.highest, product, values[static_cast<std::size_t>(c)]);
+  }
+}
+
+/// The normal equations of a Bayesian linear model with unit prior (R&W Eq. 2.8).
+void HarmonicTile::Workspace::State::solve(const WaveBox& box, const Part& part, const Array3d& information) {
+  const auto m = static_cast<Index>(box.waves.size());
+  precision.resize(2 * m, 2 * m);
+  VectorXd rhs(2 * m);
+  for (Index j = 0; j < m; ++j) {
+    const Wave& wj = box.waves[static_cast<std::size_t>(j)];
+    for (Index i = j; i < m; ++i) {
+      const Wave& wi = box.waves[static_cast<std::size_t>(i)];
+      const FieldProduct fields = product_of(wi, wj, information);
+      const Complex same = 0.5 * fields.same * weights.at(wi.a + wj.a, wi.b + wj.b);
+      const Complex conjugate = 0.5 * fields.conjugate * weights.at(wi.a - wj.a, wi.b - wj.b);
+      precision(2 * i, 2 * j) = conjugate.real() + same.real();
+      precision(2 * i, 2 * j + 1) = same.imag() - conjugate.imag();
+      precision(2 * i + 1, 2 * j) = same.imag() + conjugate.imag();
+      precision(2 * i + 1, 2 * j + 1) = conjugate.real() - same.real();
+    }
+    precision(2 * j, 2 * j) += 1.0;
+    precision(2 * j + 1, 2 * j + 1) += 1.0;
+    Complex sum = 0.0;
+    for (int c = 0; c < 3; ++c)
+      sum += information(c) * field_of(wj, part, c) * values[static_cast<std::size_t>(c)].at(wj.a, wj.b);
+    rhs(2 * j) = sum.real();
+    rhs(2 * j + 1) = sum.imag();
+  }
+  covariance = inverse(precision);  // I + something positive: rounding alone cannot spoil it
+  assert(covariance != nullptr);
+  solution = *covariance * rhs;
+}
+
+void HarmonicTile::Workspace::State::mean(const WaveBox& box, const Part& part, Posterior& posterior) {
+  for (int c = 0; c < 3; ++c) {
+    if (part.component(c) == 0.0) continue;
+    at_cells.set_zero(box.highest);
+    for (std::size_t j = 0; j < box.waves.size(); ++j) {
+      const auto at = static_cast<Index>(2 * j);
+      const Wave& wave = box.waves[j];
+      at_cells.add(wave.a, wave.b, Complex(solution(at), -solution(at + 1)) * field_of(wave, part, c));
+    }
+    evaluate_at_cells(at_cells, box.cell_harmonics, product, posterior.mean[static_cast<std::size_t>(c)]);
+  }
+}
+
+/// A quadratic form of waves is a sum of waves whose numbers are sums and differences of theirs.
+void HarmonicTile::Workspace::State::variance(const WaveBox& box, const Part& part, Posterior& posterior) {
+  const MatrixXd& k = *covariance;
+  for (int c = 0; c < 3; ++c) {
+    if (part.component(c) == 0.0) continue;
+    Array3d only = Array3d::Zero();
+    only(c) = 1.0;
+    at_cells.set_zero(2 * box.highest);
+    for (std::size_t j = 0; j < box.waves.size(); ++j)
+      for (std::size_t i = j; i < box.waves.size(); ++i) {
+        const Wave &wi = box.waves[i], &wj = box.waves[j];
+        const auto p = static_cast<Index>(2 * i), q = static_cast<Index>(2 * j);
+        const FieldProduct fields = product_of(wi, wj, only);
+        const double half = i == j ? 0.5 : 1.0;  // a pair stands for its mirror image too
+        at_cells.add(wi.a + wj.a, wi.b + wj.b,
+                     half * fields.same * Complex(k(p, q) - k(p + 1, q + 1), -(k(p, q + 1) + k(p + 1, q))));
+        at_cells.add(
+            wi.a - wj.a, wi.b - wj.b,
+            half * fields.conjugate * Complex(k(p, q) + k(p + 1, q + 1), -(k(p + 1, q) - k(p, q + 1))));
+      }
+    MatrixXd& variance = posterior.variance[static_cast<std::size_t>(c)];
+    evaluate_at_cells(at_cells, box.cell_harmonics, product, variance);
+    variance = (variance.array() + box.left_out(c)).cwiseMax(0.0);
+  }
+}
+
+HarmonicTile::HarmonicTile(const HarmonicTileOptions& options, const HarmonicFineness& fineness)
+    : state_(std::make_unique<const State>(options, fineness)) {
+  assert(options.field.depth_m > 0 && options.field.signal_sd_uT > 0 && options.cell_m > 0);
+}
+HarmonicTile::HarmonicTile(HarmonicTile&&) noexcept = default;
+HarmonicTile::~HarmonicTile() = default;
+
+HarmonicTile::Workspace::Workspace() : state_(std::make_unique<State>()) {}
+HarmonicTile::Workspace::Workspace(Workspace&&) noexcept = default;
+HarmonicTile::Workspace& HarmonicTile::Workspace::operator=(Workspace&&) noexcept = default;
+HarmonicTile::Workspace::~Workspace() = default;
+
+int HarmonicTile::cells() const { return state_->cells; }
+double HarmonicTile::halo_m() const { return state_->halo_m; }
+int HarmonicTile::rank() const { return static_cast<int>(2 * state_->waves.size()); }
+
+HarmonicTile::Posterior HarmonicTile::solve(std::span<const TileSample> samples, Workspace& workspace) const {
+  Workspace::State& work = *workspace.state_;
+  work.sum(*state_, samples);
+  const HarmonicHyperparameters& h = state_->options.field;
+  const Array3d information = (h.signal_sd_uT / h.noise_sd_uT).square();
+  Posterior posterior;
+  for (const Part& part : parts_of(h.side)) {
+    work.solve(*state_, part, information * part.component);
+    work.mean(*state_, part, posterior);
+    work.variance(*state_, part, posterior);
+  }
+  return posterior;
+}
+
+HarmonicFineness harmonic_fineness(RegressionQuality quality) {
+  return quality == RegressionQuality::kExact ? HarmonicFineness{3.0, 2.0, 1.0, 1e-3}
+                                              : HarmonicFineness{3.0, 1.5, 1.0, 1e-2};
+}
+
+}  // namespace mstsl

@@ -1,0 +1,99 @@
+#include "waves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mstsl/core/angles.hpp"
+
+namespace mstsl {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Wave number times depth beyond which waves tell less than `tolerance` of what the prior knows. The power
+/// of the sheet falls as k exp(-k D); `information` is that of the samples within a depth squared.
+double shortest_wave(double information, double tolerance) {
+  constexpr double kLeast = 3.0, kStep = 0.05, kMost = 40.0;
+  double u = kLeast;
+  while (u < kMost && information * u * std::exp(-u) > tolerance) u += kStep;
+  return u;
+}
+
+}  // namespace
+
+void Harmonics::evaluate(const VectorXd& points_m, double period_m, int highest) {
+  cosine.resize(points_m.size(), highest + 1);
+  sine.resize(points_m.size(), highest + 1);
+  for (int a = 0; a <= highest; ++a) {
+    const double k = 2 * kPi * a / period_m;
+    cosine.col(a) = (k * points_m).array().cos();
+    sine.col(a) = (k * points_m).array().sin();
+  }
+}
+
+void sum_over_samples(const Harmonics& x, const Harmonics& y, const VectorXd& weights, int highest,
+                      MatrixProduct& product, WaveTable& sums) {
+  sums.set_zero(highest);
+  const int n = highest + 1;
+  const MatrixXd wx = weights.asDiagonal() * x.cosine.leftCols(n),
+                 vx = weights.asDiagonal() * x.sine.leftCols(n);
+  const auto cy = y.cosine.leftCols(n), sy = y.sine.leftCols(n);
+  MatrixXd cc = MatrixXd::Zero(n, n), ss = cc, cs = cc, sc = cc;
+  product.add(wx.transpose(), cy, cc);
+  product.add(vx.transpose(), sy, ss);
+  product.add(wx.transpose(), sy, cs);
+  product.add(vx.transpose(), cy, sc);
+  sums.real.rightCols(n) = cc - ss;
+  sums.imaginary.rightCols(n) = cs + sc;
+  sums.real.leftCols(n) = (cc + ss).rowwise().reverse();
+  sums.imaginary.leftCols(n) = (sc - cs).rowwise().reverse();
+}
+
+void evaluate_at_cells(const WaveTable& table, const Harmonics& cells, MatrixProduct& product,
+                       MatrixXd& values) {
+  const int n = table.highest() + 1;
+  const auto cosine = cells.cosine.leftCols(n), sine = cells.sine.leftCols(n);
+  MatrixXd real = MatrixXd::Zero(cosine.rows(), 2 * n - 1), imaginary = real;
+  product.add(cosine, table.real, real);
+  product.add(sine, table.imaginary, real, -1.0);
+  product.add(cosine, table.imaginary, imaginary);
+  product.add(sine, table.real, imaginary);
+  MatrixXd cosine_y(cosine.rows(), 2 * n - 1), sine_y(cosine.rows(), 2 * n - 1);
+  cosine_y << cosine.rightCols(n - 1).rowwise().reverse(), cosine;
+  sine_y << -sine.rightCols(n - 1).rowwise().reverse(), sine;
+  values.setZero(cosine.rows(), cosine.rows());
+  product.add(real, cosine_y.transpose(), values);
+  product.add(imaginary, sine_y.transpose(), values, -1.0);
+}
+
+WaveBox::WaveBox(const HarmonicTileOptions& o, const HarmonicFineness& fineness) : options(o) {
+  const double depth_m = o.field.depth_m;
+  cells =
+      o.cells > 0 ? o.cells : std::max(4, static_cast<int>(std::lround(fineness.side * depth_m / o.cell_m)));
+  length_m = cells * o.cell_m;
+  halo_m = fineness.halo * depth_m;
+  period_m = length_m + (2 * fineness.halo + fineness.margin) * depth_m;
+  const double noise = (o.field.noise_sd_uT / o.field.signal_sd_uT).minCoeff();
+  const double u =
+      shortest_wave(kPi * o.samples_per_m2 * depth_m * depth_m / (noise * noise), fineness.tolerance);
+  const double step = 2 * kPi * depth_m / period_m;
+  const int most = static_cast<int>(u / step);
+  for (int a = 0; a <= most; ++a)
+    for (int b = a == 0 ? 1 : -most; b <= most; ++b) {
+      const double k = step * std::hypot(a, b);
+      if (k > u) continue;
+      // The sheet's spectrum 2 pi exp(-k D) / k, times k^2, over a cell of the lattice of waves; twice, for
+      // the opposite wave is the same.
+      const double variance = step * step / (2 * kPi) * k * std::exp(-k);
+      waves.push_back({a, b, Eigen::Vector2d(a, b).normalized(), std::sqrt(variance)});
+      highest = std::max({highest, a, std::abs(b)});
+    }
+  VectorXd centers_m(cells);
+  for (int i = 0; i < cells; ++i) centers_m(i) = (i + 0.5) * o.cell_m;
+  cell_harmonics.evaluate(centers_m, period_m, 2 * highest);
+  const double vertical = std::exp(-u) * (u * u + 2 * u + 2) / 2;
+  left_out = {vertical / 2, vertical / 2, vertical};
+}
+
+}  // namespace mstsl
