@@ -34,6 +34,7 @@ struct Wish {
   io::PlayOptions play;
   std::string initial_pose;
   std::string model = "gpr";
+  std::string kernel = "auto";
   std::string quality = "fast";
   std::string bias = "auto";
   std::optional<fs::path> calibration;
@@ -45,6 +46,9 @@ FieldMapOptions options_of(const Session& session, const Wish& wish) {
   FieldMapOptions options = wish.build;
   options.model = *field_model_from(wish.model);  // CLI11 lets only known names through
   options.quality = wish.quality == "exact" ? RegressionQuality::kExact : RegressionQuality::kFast;
+  options.analysis.kernel = wish.kernel == "se"         ? KernelChoice::kSquaredExponential
+                            : wish.kernel == "harmonic" ? KernelChoice::kHarmonic
+                                                        : KernelChoice::kAuto;
   options.analysis.bias_removal = wish.bias == "keep"     ? BiasRemoval::kNever
                                   : wish.bias == "remove" ? BiasRemoval::kAlways
                                                           : BiasRemoval::kWhenSignificant;
@@ -55,8 +59,8 @@ FieldMapOptions options_of(const Session& session, const Wish& wish) {
 /// Where the map comes from, without times and folders: the same input gives the same file.
 std::vector<std::string> provenance(const Wish& wish) {
   std::vector<std::string> lines{
-      fmt::format("mstsl {} map magnetic --model {} --quality {} --bias {} --resolution {}", MSTSL_VERSION,
-                  wish.model, wish.quality, wish.bias, wish.build.resolution_m)};
+      fmt::format("mstsl {} map magnetic --model {} --kernel {} --quality {} --bias {} --resolution {}",
+                  MSTSL_VERSION, wish.model, wish.kernel, wish.quality, wish.bias, wish.build.resolution_m)};
   lines.push_back("map " + wish.map.filename().string());
   if (wish.calibration) lines.push_back("calibration " + wish.calibration->filename().string());
   for (const fs::path& log : wish.logs) lines.push_back("log " + log.filename().string());
@@ -149,6 +153,12 @@ void add_map_magnetic(CLI::App& map, Session& session) {
   poses->require_option(1);
   command->add_option("--model", wish->model, "How the field between the fingerprints is made")
       ->check(CLI::IsMember({"gpr", "bilinear", "fingerprint"}))
+      ->capture_default_str();
+  command
+      ->add_option("--kernel", wish->kernel,
+                   "What gpr assumes of the field: se, three independent squared exponentials; harmonic, the "
+                   "gradient of a potential; auto, what foretells held-out lanes better")
+      ->check(CLI::IsMember({"se", "harmonic", "auto"}))
       ->capture_default_str();
   command
       ->add_option("--quality", wish->quality,

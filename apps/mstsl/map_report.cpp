@@ -91,6 +91,31 @@ nlohmann::ordered_json bias_json(const SurveyAnalysis& analysis) {
   return {{"pairs", analysis.bias.pairs}, {"removed", analysis.bias_removed}, {"logs", sessions}};
 }
 
+std::string kernel_text(const SurveyAnalysis& analysis) {
+  if (!analysis.kernel_comparison) return {};
+  const KernelComparison& c = *analysis.kernel_comparison;
+  return fmt::format(
+      "covariance: {}; on held-out lanes a harmonic one (steel {}, depth {:.2f} m) has rms {} instead of {}, "
+      "log density {:+.2f} +- {:.2f} a fingerprint\n",
+      analysis.harmonic ? "harmonic" : "squared exponential", to_string(c.harmonic.side), c.harmonic.depth_m,
+      three(c.rms_harmonic_uT, " uT"), three(c.rms_independent_uT, " uT"), c.gain, c.gain_sd);
+}
+
+nlohmann::ordered_json kernel_json(const SurveyAnalysis& analysis) {
+  nlohmann::ordered_json json{{"chosen", analysis.harmonic ? "harmonic" : "squared-exponential"}};
+  if (!analysis.kernel_comparison) return json;
+  const KernelComparison& c = *analysis.kernel_comparison;
+  json["harmonic"] = {{"steel", to_string(c.harmonic.side)},
+                      {"depth_m", c.harmonic.depth_m},
+                      {"signal_sd_uT", c.harmonic.signal_sd_uT},
+                      {"noise_sd_uT", list(c.harmonic.noise_sd_uT)}};
+  json["log_density_gain"] = c.gain;
+  json["log_density_gain_sd"] = c.gain_sd;
+  json["rms_harmonic_uT"] = list(c.rms_harmonic_uT);
+  json["rms_squared_exponential_uT"] = list(c.rms_independent_uT);
+  return json;
+}
+
 std::string check_text(const CheckedLog& log) {
   const FieldCheck& check = log.check;
   if (check.score.errors == 0)
@@ -125,6 +150,7 @@ std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analys
       "length scale {:.2f} m; x y z: mean {}, signal {}, noise {} (from {} fingerprints in {} blocks)\n",
       h.length_scale_m(0), three(h.mean_uT, " uT"), three(h.signal_sd_uT, " uT"), three(h.noise_sd_uT, " uT"),
       analysis.hyperparameters.samples, analysis.hyperparameters.blocks);
+  text += kernel_text(analysis);
   if (analysis.model == FieldModel::kBilinear)
     text += fmt::format("lattice of {:.2f} m\n", analysis.bilinear_spacing_m);
   text += "held-out lanes, x y z:\n";
@@ -152,6 +178,7 @@ std::string map_report_json(const SurveyLogs& logs, const SurveyAnalysis& analys
   for (const auto& [what, count] : logs.problems) json["problems"][what] = count;
   json["bias"] = bias_json(analysis);
   json["hyperparameters"] = map.hyperparameters;
+  if (analysis.model == FieldModel::kGpr) json["kernel"] = kernel_json(analysis);
   json["learned_from"] = {{"fingerprints", analysis.hyperparameters.samples},
                           {"blocks", analysis.hyperparameters.blocks}};
   json["held_out"] = {{"same_floor", to_json(analysis.held_out.same_floor)},

@@ -167,6 +167,11 @@ VarianceCalibration calibrate(std::span<const HeldOutError> errors, const Varian
   return calibration;
 }
 
+double log_density(const HeldOutError& error, const VarianceCalibration& calibration) {
+  const Array3d variance = calibration.apply(error.variance_uT2);
+  return -0.5 * (error.error_uT.square() / variance + variance.log()).sum();
+}
+
 HeldOutScore score(std::span<const HeldOutError> errors, const VarianceCalibration& calibration) {
   HeldOutScore score;
   score.errors = errors.size();

@@ -19,7 +19,7 @@ struct FillOptions {
 };
 
 /// Beyond this many length scales a fingerprint's covariance with a cell is below 0.0004 of the signal's
-/// variance.
+/// variance (of a harmonic covariance, whose tails are long: a tenth).
 inline constexpr double kPriorBeyond = 4.0;
 
 void fill_by_gpr(const SurveyAnalysis& survey, const FieldArea& area, const FillOptions& options,

@@ -10,16 +10,12 @@
 namespace mstsl {
 namespace {
 
-/// Mean log density of held-out errors, each set weighing the same, under the calibration that suits them
-/// best.
-double log_density(std::span<const HeldOutError> errors, const FieldHyperparameters& h) {
+/// Mean log density of held-out errors under the calibration that suits them best.
+double mean_log_density(std::span<const HeldOutError> errors, const FieldHyperparameters& h) {
   const VarianceCalibration calibration =
       calibrate(errors, {Eigen::Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT});
   double sum = 0.0;
-  for (const HeldOutError& e : errors) {
-    const Eigen::Array3d variance = calibration.apply(e.variance_uT2);
-    sum -= 0.5 * (e.error_uT.square() / variance + variance.log()).sum();
-  }
+  for (const HeldOutError& e : errors) sum += log_density(e, calibration);
   return errors.empty() ? 0.0 : sum / static_cast<double>(errors.size());
 }
 
@@ -47,7 +43,7 @@ FieldHyperparameters noise_from_lanes(std::span<const Fingerprint> fingerprints,
     auto errors = held_out_errors(fingerprints, same_floor, gpr_predictor(h), threads);
     const auto more = held_out_errors(fingerprints, between, gpr_predictor(h), threads);
     errors.insert(errors.end(), more.begin(), more.end());
-    const double density = log_density(errors, h);
+    const double density = mean_log_density(errors, h);
     if (!(density > best_density)) break;  // one maximum: more noise is only worse from here
     best_density = density;
     best = h;

@@ -8,6 +8,8 @@
 #include "mstsl/magnetic/tile_regression.hpp"
 
 #include "bilinear_lattice.hpp"
+#include "choose_kernel.hpp"
+#include "harmonic/dense.hpp"
 #include "noise_by_lane.hpp"
 
 namespace mstsl {
@@ -85,15 +87,38 @@ Predictor predictor_for(const SurveyAnalysis& analysis) {
     case FieldModel::kGpr:
       break;
   }
-  return gpr_predictor(analysis.hyperparameters.values);
+  return analysis.harmonic ? harmonic_predictor(*analysis.harmonic)
+                           : gpr_predictor(analysis.hyperparameters.values);
+}
+
+/// Replaces independent components by the harmonic covariance where that is wanted.
+Result<void> choose_kernel(SurveyAnalysis& analysis, const SurveyAnalysisOptions& options) {
+  if (analysis.model != FieldModel::kGpr || options.kernel == KernelChoice::kSquaredExponential) return {};
+  if (options.hyperparameters) {
+    if (options.kernel == KernelChoice::kAuto) return {};
+    return Error("hyper-parameters of a squared exponential were given for a harmonic covariance");
+  }
+  LearningOptions learning = options.learning;
+  learning.threads = options.threads;
+  analysis.kernel_comparison =
+      compare_kernels(analysis.fingerprints, analysis.hyperparameters.values, learning);
+  if (!analysis.kernel_comparison) {
+    if (options.kernel == KernelChoice::kAuto) return {};
+    return Error("the survey is too small to learn a harmonic covariance from; drive a longer one");
+  }
+  if (options.kernel == KernelChoice::kAuto && !analysis.kernel_comparison->favours_harmonic()) return {};
+  analysis.harmonic = analysis.kernel_comparison->harmonic;
+  analysis.hyperparameters.values = as_independent(*analysis.harmonic);
+  return {};
 }
 
 /// What lanes left out say of the model, and the calibration that follows.
 void check_by_lane(SurveyAnalysis& analysis, const SurveyAnalysisOptions& options) {
   const FieldHyperparameters& h = analysis.hyperparameters.values;
   const double length_m = h.length_scale_m.maxCoeff();
-  const HoldOutWays ways = hold_out_ways(
+  HoldOutWays ways = hold_out_ways(
       length_m, analysis.model == FieldModel::kFingerprint ? 0.5 * kFingerprintReach_m : 0.5 * length_m);
+  if (analysis.harmonic) ways.same_floor.training = ways.between_lanes.training = kHarmonicTraining;
   const Predictor predict = predictor_for(analysis);
   const auto errors_of = [&](const HoldOutOptions& o) {
     return held_out_errors(analysis.fingerprints, hold_out_lanes(analysis.fingerprints, o), predict,
@@ -125,6 +150,7 @@ Result<SurveyAnalysis> analyse_survey(std::span<const Fingerprint> fingerprints,
   auto learned = hyperparameters_for(analysis, options);
   if (!learned) return learned.error();
   analysis.hyperparameters = std::move(*learned);
+  if (const auto chosen = choose_kernel(analysis, options); !chosen) return chosen.error();
   analysis.bilinear_spacing_m = options.bilinear_spacing_m.value_or(lane_spacing_m(analysis.fingerprints));
   if (!(analysis.bilinear_spacing_m > 0.0)) return Error("the bilinear lattice needs a positive spacing");
   const auto& doubts = analysis.hyperparameters.warnings;

@@ -66,6 +66,9 @@ struct VarianceCalibration {
 /// and with few errors stays near, `prior`.
 VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior);
 
+/// Log of the Gaussian density of an error's three components, without the constant.
+double log_density(const HeldOutError& error, const VarianceCalibration& calibration);
+
 /// How well predictions held: rms error, and the shares of errors within 1 and 2 of their own standard
 /// deviations (0.68 and 0.95 for an honest Gaussian).
 struct HeldOutScore {

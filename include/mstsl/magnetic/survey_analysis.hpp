@@ -11,6 +11,7 @@
 #include "mstsl/magnetic/cross_validation.hpp"
 #include "mstsl/magnetic/field_map.hpp"
 #include "mstsl/magnetic/fingerprint.hpp"
+#include "mstsl/magnetic/harmonic_covariance.hpp"
 #include "mstsl/magnetic/hyperparameters.hpp"
 #include "mstsl/magnetic/learn_hyperparameters.hpp"
 #include "mstsl/magnetic/outliers.hpp"
@@ -21,11 +22,17 @@ namespace mstsl {
 /// Whether a bias found in the survey is taken from its fingerprints.
 enum class BiasRemoval { kWhenSignificant, kAlways, kNever };
 
+/// The covariance of the GPR model: three independent squared exponentials (the paper's), the harmonic one,
+/// or whichever foretells held-out lanes better.
+enum class KernelChoice { kSquaredExponential, kHarmonic, kAuto };
+
 struct SurveyAnalysisOptions {
   OutlierOptions outliers;
   SurveyBiasOptions bias;
   BiasRemoval bias_removal = BiasRemoval::kWhenSignificant;
-  /// What the GPR assumes; learned from the fingerprints where absent.
+  KernelChoice kernel = KernelChoice::kAuto;
+  /// What the GPR assumes; learned from the fingerprints where absent. Given ones are a squared
+  /// exponential's.
   std::optional<FieldHyperparameters> hyperparameters;
   LearningOptions learning;
   /// Whether the noise is raised from what the marginal likelihood makes of single passes to what predicts
@@ -48,6 +55,18 @@ struct HeldOutReport {
   HeldOutScore between_lanes_before, between_lanes;  ///< the same
 };
 
+/// What the harmonic covariance gains over independent components on the same held-out fingerprints, under
+/// the calibration that suits each.
+struct KernelComparison {
+  HarmonicHyperparameters harmonic;
+  double gain = 0.0;     ///< of the log density of a fingerprint's three components, mean
+  double gain_sd = 0.0;  ///< standard error of the mean, over held-out stretches
+  Eigen::Array3d rms_independent_uT = Eigen::Array3d::Zero(), rms_harmonic_uT = Eigen::Array3d::Zero();
+
+  /// More than chance alone would give once in forty times.
+  bool favours_harmonic() const { return gain > 2.0 * gain_sd; }
+};
+
 /// A survey made ready for a map: cleaned, its bias removed, its statistics learned and checked.
 struct SurveyAnalysis {
   FieldModel model = FieldModel::kGpr;
@@ -55,7 +74,9 @@ struct SurveyAnalysis {
   std::size_t outliers = 0;               ///< dropped
   SurveyBias bias;
   bool bias_removed = false;
-  LearnedHyperparameters hyperparameters;
+  LearnedHyperparameters hyperparameters;           ///< of the harmonic covariance: what resembles it
+  std::optional<HarmonicHyperparameters> harmonic;  ///< the covariance, where it was chosen
+  std::optional<KernelComparison> kernel_comparison;
   double bilinear_spacing_m = 0.0;
   HeldOutReport held_out;
   VarianceCalibration calibration;  ///< from the model's variance to that of a later reading

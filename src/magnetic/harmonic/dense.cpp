@@ -14,34 +14,56 @@ using Eigen::VectorXd;
 
 using Predictions = std::vector<std::optional<FieldPrediction>>;
 
+/// Some coupled components; false where the matrix cannot be solved.
+bool predict_coupled(const HarmonicHyperparameters& h, const std::vector<int>& components,
+                     MatrixXd covariance, const VectorXd& values, const MatrixXd& cross,
+                     std::vector<FieldPrediction>& predictions) {
+  const auto parts = static_cast<Index>(components.size()), n = values.size() / parts,
+             m = cross.rows() / parts;
+  VectorXd prior(cross.rows());
+  for (Index k = 0; k < parts; ++k) {
+    const int c = components[static_cast<std::size_t>(k)];
+    covariance.diagonal().segment(k * n, n).array() += h.noise_sd_uT(c) * h.noise_sd_uT(c);
+    prior.segment(k * m, m).setConstant(h.component_sd_uT().square()(c));
+  }
+  const auto system = GaussianSystem::make(std::move(covariance), values, false);
+  if (!system) return false;
+  const VectorXd mean = system->predict_mean(cross), variance = system->predict_variance(cross, prior);
+  for (Index k = 0; k < parts; ++k) {
+    const int c = components[static_cast<std::size_t>(k)];
+    for (Index i = 0; i < m; ++i) {
+      predictions[static_cast<std::size_t>(i)].mean_uT(c) = h.mean_uT(c) + mean(k * m + i);
+      predictions[static_cast<std::size_t>(i)].variance_uT2(c) = variance(k * m + i);
+    }
+  }
+  return true;
+}
+
 Predictions predict(const HarmonicHyperparameters& h, std::span<const Fingerprint> training,
                     std::span<const Eigen::Vector2d> points_m) {
   std::vector<Eigen::Vector2d> positions_m;
   for (const Fingerprint& f : training) positions_m.push_back(f.position_m);
-  const auto n = static_cast<Index>(training.size());
-  MatrixXd covariance = harmonic_covariance(h, positions_m, positions_m);
-  for (int c = 0; c < 3; ++c)
-    covariance.diagonal().segment(c * n, n).array() += h.noise_sd_uT(c) * h.noise_sd_uT(c);
-  const auto system = GaussianSystem::make(std::move(covariance), stacked(h, training), false);
-  if (!system) return Predictions(points_m.size());
-  const MatrixXd cross = harmonic_covariance(h, points_m, positions_m);
-  const auto m = static_cast<Index>(points_m.size());
-  VectorXd prior(3 * m);
-  for (int c = 0; c < 3; ++c) prior.segment(c * m, m).setConstant(h.component_sd_uT().square()(c));
-  const VectorXd mean = system->predict_mean(cross), variance = system->predict_variance(cross, prior);
-  Predictions predictions;
-  for (Index i = 0; i < m; ++i) {
-    FieldPrediction at;
-    for (int c = 0; c < 3; ++c) {
-      at.mean_uT(c) = h.mean_uT(c) + mean(c * m + i);
-      at.variance_uT2(c) = variance(c * m + i);
-    }
-    predictions.emplace_back(at);
+  const MatrixXd covariance = harmonic_covariance(h, positions_m, positions_m),
+                 cross = harmonic_covariance(h, points_m, positions_m);
+  const VectorXd values = stacked(h, training);
+  const auto n = static_cast<Index>(training.size()), m = static_cast<Index>(points_m.size());
+  std::vector<FieldPrediction> predictions(points_m.size());
+  for (const std::vector<int>& components : coupled_components(h.side)) {
+    const Index first = components.front(), parts = static_cast<Index>(components.size());
+    if (!predict_coupled(h, components, covariance.block(first * n, first * n, parts * n, parts * n),
+                         values.segment(first * n, parts * n),
+                         cross.block(first * m, first * n, parts * m, parts * n), predictions))
+      return Predictions(points_m.size());
   }
-  return predictions;
+  return {predictions.begin(), predictions.end()};
 }
 
 }  // namespace
+
+std::vector<std::vector<int>> coupled_components(SourceSide side) {
+  if (side == SourceSide::kBoth) return {{0, 1}, {2}};
+  return {{0, 1, 2}};
+}
 
 MatrixXd harmonic_covariance(const HarmonicHyperparameters& h, std::span<const Eigen::Vector2d> rows_m,
                              std::span<const Eigen::Vector2d> columns_m) {

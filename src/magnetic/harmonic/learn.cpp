@@ -37,12 +37,6 @@ HarmonicHyperparameters with(HarmonicHyperparameters h, const VectorXd& logs) {
   return h;
 }
 
-/// Components that are independent of the others.
-std::vector<std::vector<int>> coupled_components(SourceSide side) {
-  if (side == SourceSide::kBoth) return {{0, 1}, {2}};
-  return {{0, 1, 2}};
-}
-
 /// Log marginal likelihood of some components of a block, and its gradient by the logs (R&W Eq. 2.30, 5.9).
 /// Matrices hold those components only, one after the other.
 Objective log_likelihood(MatrixXd covariance, const MatrixXd& by_log_depth, const VectorXd& noise_variance,

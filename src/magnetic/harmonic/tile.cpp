@@ -40,6 +40,32 @@ Complex field_of(const Wave& wave, const Part& part, int c) {
                 : Complex(0.0, -wave.direction(c) * wave.amplitude);
 }
 
+/// Component c of the field of a long wave's unit amplitude: a factor of one column of long_waves_at(). First
+/// the cosine amplitudes of all, then the sine amplitudes.
+struct LongTerm {
+  double factor;
+  Index column;
+};
+LongTerm long_term(const WaveBox& box, const Part& part, Index unknown, int c) {
+  const auto n = static_cast<Index>(box.long_waves.size());
+  const Index l = unknown % n, cosine = l, sine = n + l;
+  const bool of_cosine = unknown < n;
+  const WaveBox::LongWave& wave = box.long_waves[static_cast<std::size_t>(l)];
+  if (c == 2) return {part.component(c) * part.vertical * wave.amplitude, of_cosine ? cosine : sine};
+  const double factor = part.component(c) * wave.amplitude * wave.direction(c);
+  return of_cosine ? LongTerm{factor, sine} : LongTerm{-factor, cosine};
+}
+
+/// Component c at all cells, column by column, of each long wave's unit amplitudes.
+MatrixXd long_fields(const WaveBox& box, const Part& part, int c) {
+  MatrixXd fields(box.long_waves_at_cells.rows(), box.long_waves_at_cells.cols());
+  for (Index u = 0; u < fields.cols(); ++u) {
+    const LongTerm term = long_term(box, part, u, c);
+    fields.col(u) = term.factor * box.long_waves_at_cells.col(term.column);
+  }
+  return fields;
+}
+
 /// Products of two waves' fields, weighted and summed over components: with and without conjugation of the
 /// second. Both are real.
 struct FieldProduct {
@@ -61,18 +87,25 @@ struct HarmonicTile::State : WaveBox {
 /// One tile's tables and matrices; their memory serves the next tile.
 struct HarmonicTile::Workspace::State {
   void sum(const WaveBox& box, std::span<const TileSample> samples);
+  void sum_long_waves(const WaveBox& box, const std::vector<const TileSample*>& near);
   void solve(const WaveBox& box, const Part& part, const Array3d& information);
+  void assemble_waves(const WaveBox& box, const Part& part, const Array3d& information);
+  void assemble_long_waves(const WaveBox& box, const Part& part, const Array3d& information);
+  void set_waves(const WaveBox& box, const Part& part, int c, const Eigen::Ref<const VectorXd>& unknowns);
+  void add_long_variance(const WaveBox& box, const Part& part, int c, MatrixXd& variance);
   void mean(const WaveBox& box, const Part& part, Posterior& posterior);
   void variance(const WaveBox& box, const Part& part, Posterior& posterior);
 
   MatrixProduct product;
   SpdInverse inverse;
   Harmonics x, y;
-  WaveTable weights;                ///< summed over samples
-  std::array<WaveTable, 3> values;  ///< the same times their values
+  WaveTable weights;                    ///< summed over samples
+  std::array<WaveTable, 3> values;      ///< the same times their values
+  std::vector<WaveTable> long_sums;     ///< weights times each column of long waves, summed over samples
+  MatrixXd long_products, long_values;  ///< the same columns times each other, and times the values
   WaveTable at_cells;
   MatrixXd precision;  ///< unknowns: cosine and sine of each wave
-  VectorXd solution;
+  VectorXd rhs, solution;
   const MatrixXd* covariance = nullptr;
 };
 
@@ -96,13 +129,33 @@ void HarmonicTile::Workspace::State::sum(const WaveBox& box, std::span<const Til
     for (Index i = 0; i < n; ++i) wv(i) = w(i) * near[static_cast<std::size_t>(i)]->value(c);
     sum_over_samples(x, y, wv, box.highest, product, values[static_cast<std::size_t>(c)]);
   }
+  sum_long_waves(box, near);
 }
 
-/// The normal equations of a Bayesian linear model with unit prior (R&W Eq. 2.8).
-void HarmonicTile::Workspace::State::solve(const WaveBox& box, const Part& part, const Array3d& information) {
+void HarmonicTile::Workspace::State::sum_long_waves(const WaveBox& box,
+                                                    const std::vector<const TileSample*>& near) {
+  const auto n = static_cast<Index>(near.size());
+  Eigen::MatrixX2d points_m(n, 2);
+  MatrixXd readings(n, 3);
+  VectorXd w(n);
+  for (Index i = 0; i < n; ++i) {
+    points_m.row(i) = near[static_cast<std::size_t>(i)]->position_m.transpose();
+    readings.row(i) = near[static_cast<std::size_t>(i)]->value.matrix().transpose();
+    w(i) = near[static_cast<std::size_t>(i)]->weight;
+  }
+  const MatrixXd columns = long_waves_at(box, points_m), weighted = w.asDiagonal() * columns;
+  long_products.setZero(columns.cols(), columns.cols());
+  product.add(columns.transpose(), weighted, long_products);
+  long_values.setZero(columns.cols(), 3);
+  product.add(weighted.transpose(), readings, long_values);
+  long_sums.resize(static_cast<std::size_t>(columns.cols()));
+  for (Index k = 0; k < columns.cols(); ++k)
+    sum_over_samples(x, y, weighted.col(k), box.highest, product, long_sums[static_cast<std::size_t>(k)]);
+}
+
+void HarmonicTile::Workspace::State::assemble_waves(const WaveBox& box, const Part& part,
+                                                    const Array3d& information) {
   const auto m = static_cast<Index>(box.waves.size());
-  precision.resize(2 * m, 2 * m);
-  VectorXd rhs(2 * m);
   for (Index j = 0; j < m; ++j) {
     const Wave& wj = box.waves[static_cast<std::size_t>(j)];
     for (Index i = j; i < m; ++i) {
@@ -115,29 +168,69 @@ void HarmonicTile::Workspace::State::solve(const WaveBox& box, const Part& part,
       precision(2 * i + 1, 2 * j) = same.imag() + conjugate.imag();
       precision(2 * i + 1, 2 * j + 1) = conjugate.real() - same.real();
     }
-    precision(2 * j, 2 * j) += 1.0;
-    precision(2 * j + 1, 2 * j + 1) += 1.0;
     Complex sum = 0.0;
     for (int c = 0; c < 3; ++c)
       sum += information(c) * field_of(wj, part, c) * values[static_cast<std::size_t>(c)].at(wj.a, wj.b);
     rhs(2 * j) = sum.real();
     rhs(2 * j + 1) = sum.imag();
   }
+}
+
+/// Their rows come below those of the waves.
+void HarmonicTile::Workspace::State::assemble_long_waves(const WaveBox& box, const Part& part,
+                                                         const Array3d& information) {
+  const auto first = static_cast<Index>(2 * box.waves.size());
+  for (Index u = 0; first + u < precision.rows(); ++u)
+    for (int c = 0; c < 3; ++c) {
+      const LongTerm term = long_term(box, part, u, c);
+      const double factor = information(c) * term.factor;
+      if (factor == 0.0) continue;
+      const WaveTable& sums = long_sums[static_cast<std::size_t>(term.column)];
+      for (Index j = 0; 2 * j < first; ++j) {
+        const Wave& wave = box.waves[static_cast<std::size_t>(j)];
+        const Complex sum = factor * field_of(wave, part, c) * sums.at(wave.a, wave.b);
+        precision(first + u, 2 * j) += sum.real();
+        precision(first + u, 2 * j + 1) += sum.imag();
+      }
+      for (Index v = 0; v <= u; ++v) {
+        const LongTerm other = long_term(box, part, v, c);
+        precision(first + u, first + v) += factor * other.factor * long_products(term.column, other.column);
+      }
+      rhs(first + u) += factor * long_values(term.column, c);
+    }
+}
+
+/// The normal equations of a Bayesian linear model with unit prior (R&W Eq. 2.8).
+void HarmonicTile::Workspace::State::solve(const WaveBox& box, const Part& part, const Array3d& information) {
+  const auto unknowns = static_cast<Index>(2 * (box.waves.size() + box.long_waves.size()));
+  precision.setZero(unknowns, unknowns);
+  rhs.setZero(unknowns);
+  assemble_waves(box, part, information);
+  assemble_long_waves(box, part, information);
+  precision.diagonal().array() += 1.0;
   covariance = inverse(precision);  // I + something positive: rounding alone cannot spoil it
   assert(covariance != nullptr);
   solution = *covariance * rhs;
 }
 
+void HarmonicTile::Workspace::State::set_waves(const WaveBox& box, const Part& part, int c,
+                                               const Eigen::Ref<const VectorXd>& unknowns) {
+  at_cells.set_zero(box.highest);
+  for (std::size_t j = 0; j < box.waves.size(); ++j) {
+    const auto at = static_cast<Index>(2 * j);
+    const Wave& wave = box.waves[j];
+    at_cells.add(wave.a, wave.b, Complex(unknowns(at), -unknowns(at + 1)) * field_of(wave, part, c));
+  }
+}
+
 void HarmonicTile::Workspace::State::mean(const WaveBox& box, const Part& part, Posterior& posterior) {
   for (int c = 0; c < 3; ++c) {
     if (part.component(c) == 0.0) continue;
-    at_cells.set_zero(box.highest);
-    for (std::size_t j = 0; j < box.waves.size(); ++j) {
-      const auto at = static_cast<Index>(2 * j);
-      const Wave& wave = box.waves[j];
-      at_cells.add(wave.a, wave.b, Complex(solution(at), -solution(at + 1)) * field_of(wave, part, c));
-    }
-    evaluate_at_cells(at_cells, box.cell_harmonics, product, posterior.mean[static_cast<std::size_t>(c)]);
+    MatrixXd& mean = posterior.mean[static_cast<std::size_t>(c)];
+    set_waves(box, part, c, solution);
+    evaluate_at_cells(at_cells, box.cell_harmonics, product, mean);
+    mean.reshaped() +=
+        long_fields(box, part, c) * solution.tail(static_cast<Index>(2 * box.long_waves.size()));
   }
 }
 
@@ -163,7 +256,22 @@ void HarmonicTile::Workspace::State::variance(const WaveBox& box, const Part& pa
       }
     MatrixXd& variance = posterior.variance[static_cast<std::size_t>(c)];
     evaluate_at_cells(at_cells, box.cell_harmonics, product, variance);
+    add_long_variance(box, part, c, variance);
     variance = (variance.array() + box.left_out(c)).cwiseMax(0.0);
+  }
+}
+
+/// Of the long waves, and what they share with the others.
+void HarmonicTile::Workspace::State::add_long_variance(const WaveBox& box, const Part& part, int c,
+                                                       MatrixXd& variance) {
+  const auto first = static_cast<Index>(2 * box.waves.size()), n = covariance->rows() - first;
+  const MatrixXd fields = long_fields(box, part, c);
+  variance.reshaped() += (fields * covariance->bottomRightCorner(n, n)).cwiseProduct(fields).rowwise().sum();
+  MatrixXd shared;
+  for (Index u = 0; u < n; ++u) {
+    set_waves(box, part, c, covariance->col(first + u).head(first));
+    evaluate_at_cells(at_cells, box.cell_harmonics, product, shared);
+    variance.reshaped() += 2.0 * shared.reshaped().cwiseProduct(fields.col(u));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mstsl/core/angles.hpp"
 
@@ -19,6 +20,10 @@ double shortest_wave(double information, double tolerance) {
   while (u < kMost && information * u * std::exp(-u) > tolerance) u += kStep;
   return u;
 }
+
+/// Of a wave of number k that stands for a square of `side` in the plane of wave numbers and for the opposite
+/// one, both in units of 1 / depth: the sheet's spectrum 2 pi exp(-k) / k, times k^2.
+double amplitude(double k, double side) { return side * std::sqrt(k * std::exp(-k) / (2 * kPi)); }
 
 }  // namespace
 
@@ -67,6 +72,18 @@ void evaluate_at_cells(const WaveTable& table, const Harmonics& cells, MatrixPro
   product.add(imaginary, sine_y.transpose(), values, -1.0);
 }
 
+MatrixXd long_waves_at(const WaveBox& box, const Eigen::MatrixX2d& points_m) {
+  const auto n = static_cast<Eigen::Index>(box.long_waves.size());
+  MatrixXd values(points_m.rows(), 2 * n);
+  for (Eigen::Index l = 0; l < n; ++l) {
+    const WaveBox::LongWave& wave = box.long_waves[static_cast<std::size_t>(l)];
+    const Eigen::ArrayXd phase = points_m * (wave.per_m * wave.direction);
+    values.col(l) = phase.cos();
+    values.col(n + l) = phase.sin();
+  }
+  return values;
+}
+
 WaveBox::WaveBox(const HarmonicTileOptions& o, const HarmonicFineness& fineness) : options(o) {
   const double depth_m = o.field.depth_m;
   cells =
@@ -89,9 +106,20 @@ WaveBox::WaveBox(const HarmonicTileOptions& o, const HarmonicFineness& fineness)
       waves.push_back({a, b, Eigen::Vector2d(a, b).normalized(), std::sqrt(variance)});
       highest = std::max({highest, a, std::abs(b)});
     }
+  // The lattice's cell around zero in nine, the one around zero in nine again.
+  for (const double part : {step / 3, step / 9})
+    for (const auto& [a, b] : {std::pair{0, 1}, {1, -1}, {1, 0}, {1, 1}}) {
+      const double k = part * std::hypot(a, b);
+      long_waves.push_back({Eigen::Vector2d(a, b).normalized(), k / depth_m, amplitude(k, part)});
+    }
   VectorXd centers_m(cells);
   for (int i = 0; i < cells; ++i) centers_m(i) = (i + 0.5) * o.cell_m;
   cell_harmonics.evaluate(centers_m, period_m, 2 * highest);
+  Eigen::MatrixX2d places_m(cells * cells, 2);
+  for (int row = 0; row < cells; ++row)
+    for (int column = 0; column < cells; ++column)
+      places_m.row(row * cells + column) << centers_m(column), centers_m(row);
+  long_waves_at_cells = long_waves_at(*this, places_m);
   const double vertical = std::exp(-u) * (u * u + 2 * u + 2) / 2;
   left_out = {vertical / 2, vertical / 2, vertical};
 }

@@ -60,15 +60,27 @@ struct WaveBox {
     Eigen::Vector2d direction;  ///< of the wave vector
     double amplitude;           ///< of B_z, in units of the signal's SD
   };
+  /// A wave too long for the box: between the lattice's zero and its first, where a wave alone would stand
+  /// for too much.
+  struct LongWave {
+    Eigen::Vector2d direction;
+    double per_m;  ///< wave number
+    double amplitude;
+  };
   WaveBox(const HarmonicTileOptions& options, const HarmonicFineness& fineness);
 
   HarmonicTileOptions options;
   int cells;
   double length_m, halo_m, period_m;
   std::vector<Wave> waves;
-  int highest = 0;           ///< number of a wave along an axis
-  Harmonics cell_harmonics;  ///< up to twice the highest
-  Eigen::Array3d left_out;   ///< variance that the shorter waves would have
+  std::vector<LongWave> long_waves;
+  int highest = 0;                      ///< number of a wave along an axis
+  Harmonics cell_harmonics;             ///< up to twice the highest
+  Eigen::MatrixXd long_waves_at_cells;  ///< cells column by column (x first), see long_waves_at()
+  Eigen::Array3d left_out;              ///< variance that the shorter waves would have
 };
+
+/// Cosines of all long waves at points, then their sines: points x 2 waves.
+Eigen::MatrixXd long_waves_at(const WaveBox& box, const Eigen::MatrixX2d& points_m);
 
 }  // namespace mstsl
