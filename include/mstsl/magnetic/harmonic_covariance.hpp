@@ -27,6 +27,9 @@ enum class SourceSide : std::uint8_t {
 };
 std::string_view to_string(SourceSide side);
 
+/// Least noise, as a share of signal_sd: fingerprints that lie a centimetre off cost as much.
+inline constexpr double kMinHarmonicNoise = 0.01;
+
 struct HarmonicHyperparameters {
   SourceSide side = SourceSide::kBoth;
   double depth_m = 2.0;       ///< D

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mstsl/magnetic/gaussian_process.hpp"
-#include "mstsl/magnetic/tile_regression.hpp"
 
 #include "../learning_blocks.hpp"
 #include "../maximise.hpp"
@@ -26,7 +25,7 @@ struct Prior {
   double median, log_sd, low, high;
 };
 constexpr Prior kDepth_m{1.9, 0.8, 0.4, 14.0};
-constexpr Prior kNoiseRatio{0.08, 1.2, TileRegression::kMinNoiseRatio, 2.0};
+constexpr Prior kNoiseRatio{0.08, 1.2, kMinHarmonicNoise, 2.0};
 constexpr std::array<Prior, 3> kPriors{kDepth_m, kNoiseRatio, kNoiseRatio};
 
 /// Logs of depth, horizontal and vertical noise ratio.
@@ -117,7 +116,7 @@ std::optional<HarmonicHyperparameters> learn_harmonic(std::span<const Fingerprin
   start.signal_sd_uT = std::sqrt(0.5 * independent.signal_sd_uT.square().sum());
   start.depth_m = independent.length_scale_m.maxCoeff() / as_independent({.depth_m = 1.0}).length_scale_m(0);
   LearningOptions smaller = options;
-  smaller.samples_per_block = options.samples_per_block / 2;  // three rows each
+  smaller.samples_per_block = options.samples_per_block / 3;  // three rows each
   const auto blocks =
       learning_blocks(fingerprints, options.block_side * independent.length_scale_m.maxCoeff(), smaller);
   if (blocks.empty()) return std::nullopt;
@@ -139,6 +138,7 @@ std::optional<HarmonicHyperparameters> learn_harmonic(std::span<const Fingerprin
     if (!(found.value > best_value)) continue;
     best_value = found.value;
     best = with(start, found.at);
+    logs = found.at;  // of another side they are hardly different
   }
   return best;
 }
