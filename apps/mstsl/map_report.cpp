@@ -145,6 +145,11 @@ std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analys
   for (const auto& [what, count] : dropped(logs.collected))
     if (count > 0) text += fmt::format("  {}: {}\n", what, count);
   for (const auto& [what, count] : logs.problems) text += fmt::format("  {}: {}\n", what, count);
+  if (const auto distrusted = map.hyperparameters.find("distrusted_fingerprints");
+      distrusted != map.hyperparameters.end() && distrusted->second > 0)
+    text +=
+        fmt::format("{:.0f} fingerprints disagree with those around them and are trusted less than half\n",
+                    distrusted->second);
   text += bias_text(analysis);
   text += fmt::format(
       "length scale {:.2f} m; x y z: mean {}, signal {}, noise {} (from {} fingerprints in {} blocks)\n",

@@ -34,7 +34,8 @@ Trial tried(std::span<const Fingerprint> fingerprints, const std::vector<HeldOut
   std::vector<HeldOutError> all;
   for (const auto& part : errors) all.insert(all.end(), part.begin(), part.end());
   if (all.empty()) return {};
-  const VarianceCalibration calibration = calibrate(all, {Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT});
+  const VarianceCalibration before{Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT};
+  const VarianceCalibration calibration = calibrate(good_errors(all, before), before);
   Trial trial;
   trial.rms_uT = score(all, calibration).rms_uT;
   trial.mean_log_density = 0.0;

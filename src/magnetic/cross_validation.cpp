@@ -108,6 +108,22 @@ struct OneComponent {
   }
 };
 
+constexpr double kBadShare = 0.01, kBadTimesTheNoise = 10.0;
+constexpr double kBadPrecision = 1.0 / (kBadTimesTheNoise * kBadTimesTheNoise);
+
+double log_odds_of_bad(double squared_deviations, int components) {
+  return std::log(kBadShare / (1.0 - kBadShare)) - components * std::log(kBadTimesTheNoise) +
+         0.5 * (1.0 - kBadPrecision) * squared_deviations;
+}
+
+/// What bad ones add to the log of the density of good ones.
+double log_of_tails(double squared_deviations, int components) {
+  const double log_odds = log_odds_of_bad(squared_deviations, components);
+  const double added =
+      log_odds > 0.0 ? log_odds + std::log1p(std::exp(-log_odds)) : std::log1p(std::exp(log_odds));
+  return std::log(1.0 - kBadShare) + added;
+}
+
 }  // namespace
 
 std::vector<HeldOutStretch> hold_out_lanes(std::span<const Fingerprint> fingerprints,
@@ -155,6 +171,11 @@ Array3d VarianceCalibration::apply(const Array3d& variance_uT2) const {
          reading_sd_uT.square();
 }
 
+double noise_weight(double squared_deviations, int components) {
+  const double bad = 1.0 / (1.0 + std::exp(-log_odds_of_bad(squared_deviations, components)));
+  return 1.0 - bad * (1.0 - kBadPrecision);
+}
+
 VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior) {
   VarianceCalibration calibration = prior;
   for (int c = 0; c < 3; ++c) {
@@ -169,7 +190,24 @@ VarianceCalibration calibrate(std::span<const HeldOutError> errors, const Varian
 
 double log_density(const HeldOutError& error, const VarianceCalibration& calibration) {
   const Array3d variance = calibration.apply(error.variance_uT2);
-  return -0.5 * (error.error_uT.square() / variance + variance.log()).sum();
+  const double squared = (error.error_uT.square() / variance).sum();
+  return -0.5 * (squared + variance.log().sum()) + log_of_tails(squared, 3);
+}
+
+std::vector<HeldOutError> good_errors(std::span<const HeldOutError> errors,
+                                      const VarianceCalibration& prior) {
+  constexpr int kRounds = 5;
+  std::vector<HeldOutError> good(errors.begin(), errors.end());
+  for (int round = 0; round < kRounds; ++round) {
+    const VarianceCalibration calibration = calibrate(good, prior);
+    std::vector<HeldOutError> next;
+    for (const HeldOutError& e : errors)
+      if (noise_weight((e.error_uT.square() / calibration.apply(e.variance_uT2)).sum(), 3) > 0.5)
+        next.push_back(e);
+    if (next.size() == good.size()) break;
+    good = std::move(next);
+  }
+  return good;
 }
 
 HeldOutScore score(std::span<const HeldOutError> errors, const VarianceCalibration& calibration) {

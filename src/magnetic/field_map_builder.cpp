@@ -62,9 +62,11 @@ Result<FieldMap> build_field_map(const SurveyAnalysis& survey, const OccupancyGr
   map.mean_uT.assign(map.geometry.size(), nothing);
   map.variance_uT2.assign(map.geometry.size(), nothing);
   map.supported.assign(map.geometry.size(), 0);
+  describe(survey, map);
   switch (survey.model) {
     case FieldModel::kGpr:
-      fill_by_gpr(survey, *area, {options.quality, options.threads, options.progress}, map);
+      map.hyperparameters["distrusted_fingerprints"] = static_cast<double>(fill_by_gpr(
+          survey, *area, {options.quality, options.heavy_tails, options.threads, options.progress}, map));
       break;
     case FieldModel::kBilinear:
       fill_by_bilinear(survey, *area, map);
@@ -76,7 +78,6 @@ Result<FieldMap> build_field_map(const SurveyAnalysis& survey, const OccupancyGr
   for (std::size_t i = 0; i < map.supported.size(); ++i)
     map.supported[i] =
         map.has_value(map.geometry.cell(i)) && static_cast<double>(area->distance_m[i]) <= support_m(survey);
-  describe(survey, map);
   return map;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 #include "mstsl/core/parallel.hpp"
@@ -14,6 +15,7 @@ namespace mstsl {
 
 struct FillOptions {
   RegressionQuality quality = RegressionQuality::kFast;
+  bool heavy_tails = true;
   Threads threads;
   std::function<void(double)> progress;
 };
@@ -22,8 +24,9 @@ struct FillOptions {
 /// variance (of a harmonic covariance, whose tails are long: a tenth).
 inline constexpr double kPriorBeyond = 4.0;
 
-void fill_by_gpr(const SurveyAnalysis& survey, const FieldArea& area, const FillOptions& options,
-                 FieldMap& map);
+/// How many fingerprints turned out to be trusted less than half.
+std::size_t fill_by_gpr(const SurveyAnalysis& survey, const FieldArea& area, const FillOptions& options,
+                        FieldMap& map);
 void fill_by_bilinear(const SurveyAnalysis& survey, const FieldArea& area, FieldMap& map);
 void fill_by_fingerprint(const SurveyAnalysis& survey, const FieldArea& area, FieldMap& map);
 

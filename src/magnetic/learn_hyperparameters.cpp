@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -96,6 +97,42 @@ Maximum search(const std::vector<Block>& blocks, Threads threads) {
   return best;
 }
 
+/// Steps of a factor sqrt(2) by which a block alone would have more noise than all together.
+int surplus_noise(const Block& block, const VectorXd& logs) {
+  const double kStep = 0.5 * std::log(2.0);
+  const auto value = [&](int steps) {
+    const VectorXd other{{logs(0), logs(1) + steps * kStep}};
+    const auto likelihood = log_marginal_likelihood(kernel_of(other), block.points_m, block.values, true);
+    return likelihood ? likelihood->value : -std::numeric_limits<double>::infinity();
+  };
+  constexpr int kMostSteps = 12;
+  int best = 0;
+  double best_value = value(0);
+  for (const int direction : {-1, 1})
+    for (int steps = direction; std::abs(steps) <= kMostSteps; steps += direction) {
+      const double here = value(steps);
+      if (!(here > best_value)) break;
+      best = steps;
+      best_value = here;
+    }
+  return best;
+}
+
+/// Leaves out blocks with more than twice the noise of most: something moved there while the survey was made,
+/// and the length scale and noise of all must not be learned from it.
+std::vector<Block> quiet_blocks(const std::vector<Block>& blocks, const VectorXd& logs, Threads threads) {
+  constexpr int kTwice = 2;
+  std::vector<int> steps(blocks.size());
+  parallel_for(blocks.size(), threads, [&](std::size_t b) { steps[b] = surplus_noise(blocks[b], logs); });
+  std::vector<int> sorted = steps;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  std::vector<Block> quiet;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (steps[b] <= *middle + kTwice) quiet.push_back(blocks[b]);
+  return quiet;
+}
+
 /// Generalised least squares over all blocks: fingerprints that say the same count once.
 Eigen::Array3d learn_mean(const std::vector<Block>& blocks, const Kernel& kernel, const Moments& moments) {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
@@ -155,6 +192,10 @@ Result<LearnedHyperparameters> learn_hyperparameters(std::span<const Fingerprint
     const double wanted_m = options.block_side * std::exp(best.at(0));
     if (wanted_m <= 1.1 * side_m) break;
     side_m = 1.1 * wanted_m;
+  }
+  if (auto quiet = quiet_blocks(blocks, best.at, options.threads); quiet.size() < blocks.size()) {
+    blocks = std::move(quiet);
+    best = search(blocks, options.threads);
   }
   LearnedHyperparameters learned;
   const Kernel kernel = kernel_of(best.at);

@@ -12,8 +12,8 @@ namespace {
 
 /// Mean log density of held-out errors under the calibration that suits them best.
 double mean_log_density(std::span<const HeldOutError> errors, const FieldHyperparameters& h) {
-  const VarianceCalibration calibration =
-      calibrate(errors, {Eigen::Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT});
+  const VarianceCalibration before{Eigen::Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT};
+  const VarianceCalibration calibration = calibrate(good_errors(errors, before), before);
   double sum = 0.0;
   for (const HeldOutError& e : errors) sum += log_density(e, calibration);
   return errors.empty() ? 0.0 : sum / static_cast<double>(errors.size());

@@ -28,8 +28,12 @@ std::vector<TileSample> samples_of(std::span<const NearFingerprint> around,
   std::vector<TileSample> samples;
   for (const NearFingerprint& near : around)
     samples.push_back(
-        {near.position_m, (fingerprints[near.index].field_uT.array() - mean_uT) / unit_uT, 1.0});
+        {near.position_m, (fingerprints[near.index].field_uT.array() - mean_uT) / unit_uT, near.weight});
   return samples;
+}
+
+Eigen::MatrixX3d in_uT(const Eigen::MatrixX3d& deviations, const Array3d& mean_uT, const Array3d& unit_uT) {
+  return (deviations.array().rowwise() * unit_uT.transpose()).rowwise() + mean_uT.transpose();
 }
 
 }  // namespace
@@ -56,6 +60,7 @@ TileField IndependentEngine::solve(std::span<const NearFingerprint> around) cons
     field.mean_uT[k] = h_.mean_uT(c) + sd_uT * posterior.mean[k].array();
     field.variance_uT2[k] = sd_uT * sd_uT * posterior.variance.array().min(1.0);
   }
+  field.mean_at_fingerprints_uT = in_uT(posterior.mean_at_samples, h_.mean_uT, h_.signal_sd_uT);
   return field;
 }
 
@@ -78,6 +83,7 @@ TileField HarmonicEngine::solve(std::span<const NearFingerprint> around) const {
     field.mean_uT[k] = h_.mean_uT(c) + sd_uT * posterior.mean[k].array();
     field.variance_uT2[k] = (sd_uT * sd_uT * posterior.variance[k].array()).min(prior_uT2(c));
   }
+  field.mean_at_fingerprints_uT = in_uT(posterior.mean_at_samples, h_.mean_uT, Array3d::Constant(sd_uT));
   return field;
 }
 

@@ -19,7 +19,8 @@ struct TileRegression::State : TileBasis {
 struct TileRegression::Workspace::State {
   void spread(const TileBasis& basis, std::span<const TileSample> samples);
   void solve_modes(const TileBasis& basis);
-  void mean(const TileBasis& basis, const MatrixXd& weighted, MatrixXd& mean);
+  /// The modes' coefficients for one field.
+  MatrixXd coefficients(const TileBasis& basis, const MatrixXd& weighted) const;
   void variance(const TileBasis& basis, MatrixXd& variance);
 
   MatrixProduct product;
@@ -81,8 +82,8 @@ void TileRegression::Workspace::State::solve_modes(const TileBasis& basis) {
   }
 }
 
-void TileRegression::Workspace::State::mean(const TileBasis& basis, const MatrixXd& weighted_values,
-                                            MatrixXd& mean) {
+MatrixXd TileRegression::Workspace::State::coefficients(const TileBasis& basis,
+                                                        const MatrixXd& weighted_values) const {
   const MatrixXd by_axes = basis.axis.values().transpose() * weighted_values * basis.axis.values();
   const auto m = static_cast<Index>(basis.modes.size());
   Eigen::VectorXd rhs(m);
@@ -90,7 +91,7 @@ void TileRegression::Workspace::State::mean(const TileBasis& basis, const Matrix
   const Eigen::VectorXd solution = *covariance * rhs;
   MatrixXd coefficients = MatrixXd::Zero(basis.axis.rank(), basis.axis.rank());
   for (Index i = 0; i < m; ++i) coefficients(basis.modes[i].x, basis.modes[i].y) = solution(i);
-  mean = basis.cell_values * coefficients * basis.cell_values.transpose();
+  return coefficients;
 }
 
 /// The diagonal of Phi C Phi^T at all cells, plus what the modes leave out.
@@ -107,6 +108,24 @@ void TileRegression::Workspace::State::variance(const TileBasis& basis, MatrixXd
   product.add(half, basis.cell_pairs, variance);
   variance = variance.cwiseMax(0.0);
 }
+
+namespace {
+
+Eigen::MatrixX3d mean_at(const TileBasis& basis, const std::array<MatrixXd, 3>& coefficients,
+                         std::span<const TileSample> samples) {
+  Eigen::MatrixX3d mean = Eigen::MatrixX3d::Zero(static_cast<Index>(samples.size()), 3);
+  const double side_m = basis.cells * basis.options.cell_m;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Eigen::Array2d p = samples[i].position_m.array();
+    if (!(p >= 0.0).all() || !(p <= side_m).all()) continue;
+    const Eigen::RowVectorXd x = basis.axis.at(p.x()), y = basis.axis.at(p.y());
+    for (std::size_t c = 0; c < 3; ++c)
+      mean(static_cast<Index>(i), static_cast<Index>(c)) = x * coefficients[c] * y.transpose();
+  }
+  return mean;
+}
+
+}  // namespace
 
 TileRegression::TileRegression(const TileOptions& options) : state_(std::make_unique<const State>(options)) {
   assert(options.length_scale_m > 0 && options.cell_m > 0 && options.noise_ratio >= kMinNoiseRatio);
@@ -129,7 +148,12 @@ TileRegression::Posterior TileRegression::solve(std::span<const TileSample> samp
   work.spread(*state_, samples);
   work.solve_modes(*state_);
   Posterior posterior;
-  for (std::size_t c = 0; c < 3; ++c) work.mean(*state_, work.weighted[c], posterior.mean[c]);
+  std::array<MatrixXd, 3> coefficients;
+  for (std::size_t c = 0; c < 3; ++c) {
+    coefficients[c] = work.coefficients(*state_, work.weighted[c]);
+    posterior.mean[c] = state_->cell_values * coefficients[c] * state_->cell_values.transpose();
+  }
+  posterior.mean_at_samples = mean_at(*state_, coefficients, samples);
   work.variance(*state_, posterior.variance);
   return posterior;
 }

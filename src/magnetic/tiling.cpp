@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <cstdint>
 #include <mutex>
+#include <utility>
 
 namespace mstsl {
 namespace {
@@ -28,13 +31,15 @@ class Meter {
   std::mutex mutex_;
 };
 
-/// The tiles of one engine over a map.
+/// The tiles of one engine over a map, and what they make of the fingerprints.
 class Tiles {
  public:
-  Tiles(const TileEngine& engine, std::span<const Vector2d> positions_m, const FieldArea& area)
+  Tiles(const TileEngine& engine, std::span<const Fingerprint> fingerprints,
+        std::span<const Vector2d> positions_m, const FieldArea& area)
       : engine_(engine),
-        area_(area),
+        fingerprints_(fingerprints),
         positions_m_(positions_m),
+        area_(area),
         bins_(positions_m, std::max(0.1, 0.25 * engine.halo_m())) {}
 
   /// First cells of the tiles in which something is wanted near enough to a fingerprint.
@@ -46,8 +51,11 @@ class Tiles {
     return corners;
   }
 
-  void fill(Cell corner, const PutCell& put) const {
-    const TileField field = engine_.solve(around(corner));
+  /// Solves a tile and gives the fingerprints in it their new weights.
+  void solve(Cell corner, std::span<const double> weights, std::vector<double>& new_weights,
+             const PutCell& put) const {
+    const std::vector<NearFingerprint> near = around(corner, weights);
+    const TileField field = engine_.solve(near);
     for (int row = 0; row < engine_.cells(); ++row)
       for (int column = 0; column < engine_.cells(); ++column) {
         const Cell cell{corner.column + column, corner.row + row};
@@ -58,6 +66,21 @@ class Tiles {
               field.variance_uT2[k](column, row));
         }
       }
+    const double side_m = engine_.cells() * area_.geometry.resolution_m;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const Eigen::Array2d p = near[i].position_m.array();
+      if (!(p >= 0.0).all() || !(p < side_m).all()) continue;
+      const Eigen::Vector3d mean_uT = field.mean_at_fingerprints_uT.row(static_cast<Eigen::Index>(i));
+      new_weights[near[i].index] = weight_of(fingerprints_[near[i].index].field_uT - mean_uT);
+    }
+  }
+
+  /// Whether one of the fingerprints marked is in or around a tile.
+  bool has_near(Cell corner, const std::vector<std::uint8_t>& marked) const {
+    const auto [low_m, high_m] = box(corner);
+    bool found = false;
+    bins_.for_each_near(low_m, high_m, [&](std::size_t i) { found = found || marked[i] != 0; });
+    return found;
   }
 
  private:
@@ -74,19 +97,36 @@ class Tiles {
     return false;
   }
 
-  std::vector<NearFingerprint> around(Cell corner) const {
-    const double cell_m = area_.geometry.resolution_m, halo_m = engine_.halo_m();
-    const Vector2d low_m(corner.column * cell_m, corner.row * cell_m);
+  Vector2d low_corner_m(Cell corner) const {
+    return area_.geometry.resolution_m * Vector2d(corner.column, corner.row);
+  }
+
+  /// The tile and its halo.
+  std::pair<Vector2d, Vector2d> box(Cell corner) const {
+    const double halo_m = engine_.halo_m(), side_m = engine_.cells() * area_.geometry.resolution_m;
+    const Vector2d low_m = low_corner_m(corner);
+    return {low_m.array() - halo_m, low_m.array() + side_m + halo_m};
+  }
+
+  std::vector<NearFingerprint> around(Cell corner, std::span<const double> weights) const {
+    const auto [low_m, high_m] = box(corner);
     std::vector<NearFingerprint> around;
-    for (const std::size_t i :
-         bins_.in_box(low_m.array() - halo_m, low_m.array() + engine_.cells() * cell_m + halo_m))
-      around.push_back({i, positions_m_[i] - low_m});
+    for (const std::size_t i : bins_.in_box(low_m, high_m))
+      around.push_back({i, weights[i], positions_m_[i] - low_corner_m(corner)});
     return around;
   }
 
+  double weight_of(const Eigen::Vector3d& deviation_uT) const {
+    double squared = 0.0;
+    for (const int c : engine_.components())
+      squared += std::pow(deviation_uT(c) / engine_.noise_sd_uT()(c), 2);
+    return noise_weight(squared, static_cast<int>(engine_.components().size()));
+  }
+
   const TileEngine& engine_;
-  const FieldArea& area_;
+  std::span<const Fingerprint> fingerprints_;
   std::span<const Vector2d> positions_m_;
+  const FieldArea& area_;
   PointBins bins_;
 };
 
@@ -107,15 +147,31 @@ double dense_samples_per_m2(std::span<const Vector2d> positions_m, double side_m
   return static_cast<double>(*high) / (side_m * side_m);
 }
 
-void fill_by_tiles(const TileEngine& engine, std::span<const Vector2d> positions_m, const FieldArea& area,
-                   const TilingOptions& options, const PutCell& put) {
-  const Tiles tiles(engine, positions_m, area);
-  const std::vector<Cell> corners = tiles.corners();
+std::vector<double> fill_by_tiles(const TileEngine& engine, std::span<const Fingerprint> fingerprints,
+                                  std::span<const Vector2d> positions_m, const FieldArea& area,
+                                  const TilingOptions& options, const PutCell& put) {
+  constexpr int kMostRounds = 10;
+  constexpr double kStands = 0.25;  // a smaller change of a weight changes no map
+  const Tiles tiles(engine, fingerprints, positions_m, area);
+  std::vector<Cell> corners = tiles.corners();
+  std::vector<double> weights(fingerprints.size(), 1.0);
   Meter meter(options.progress, corners.size());
-  parallel_for(corners.size(), options.threads, [&](std::size_t t) {
-    tiles.fill(corners[t], put);
-    meter.one_done();
-  });
+  for (int round = 0; round < kMostRounds && !corners.empty(); ++round) {
+    std::vector<double> new_weights = weights;
+    parallel_for(corners.size(), options.threads, [&](std::size_t t) {
+      tiles.solve(corners[t], weights, new_weights, put);
+      if (round == 0) meter.one_done();
+    });
+    if (!options.heavy_tails) break;
+    std::vector<std::uint8_t> changed(weights.size(), 0);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      if (std::abs(new_weights[i] - weights[i]) > kStands) {
+        changed[i] = 1;
+        weights[i] = new_weights[i];
+      }
+    std::erase_if(corners, [&](Cell corner) { return !tiles.has_near(corner, changed); });
+  }
+  return weights;
 }
 
 }  // namespace mstsl

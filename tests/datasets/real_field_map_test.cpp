@@ -62,5 +62,24 @@ TEST(RealFieldMap, AaltoDrivesForetellTheFifth) {
   EXPECT_LT(check.score.rms_uT.matrix().norm(), 4.8);
 }
 
+/// A trolley of 35 uT goes along with the robot for 2 m in one of the drives.
+TEST(RealFieldMap, APassingTrolleyOnAaltoIsTrustedLess) {
+  MSTSL_REQUIRE_DATA("aalto-robot/5-mag.csv");
+  const Dataset dataset = test::must(aalto_robot(test::data_file("aalto-robot")));
+  std::vector<Fingerprint> survey = fingerprints_of(dataset.surveys);
+  const std::size_t middle = survey.size() / 3;
+  for (std::size_t i = middle; i < middle + 40; ++i) survey[i].field_uT += Eigen::Vector3d(20, -15, 25);
+  const std::vector<Fingerprint> check = fingerprints_of({dataset.checks.front()});
+  const auto error_uT = [&](bool heavy_tails) {
+    FieldMapOptions options;
+    options.heavy_tails = heavy_tails;
+    options.analysis.outliers.least_uT = 1e6;  // not the test that drops single outliers
+    const FieldMap map = test::must(build_field_map(survey, &dataset.map, options));
+    if (heavy_tails) EXPECT_GT(map.hyperparameters.at("distrusted_fingerprints"), 20.0);
+    return check_field_map(map, check).score.rms_uT.matrix().norm();
+  };
+  EXPECT_LT(error_uT(true), error_uT(false));
+}
+
 }  // namespace
 }  // namespace mstsl::datasets

@@ -108,6 +108,26 @@ TEST(HarmonicTile, WithoutSamplesIsThePrior) {
   }
 }
 
+TEST(HarmonicTile, MeanAtSamplesIsThatOfTheCellsTheyLieIn) {
+  for (const SourceSide side : {SourceSide::kBelow, SourceSide::kBoth}) {
+    HarmonicTileOptions options;
+    options.field.side = side;
+    options.cell_m = 0.5;
+    const HarmonicTile tile(options);
+    Random random(4);
+    std::vector<TileSample> samples;
+    for (int column = 0; column < tile.cells(); ++column)
+      samples.push_back(
+          {{(column + 0.5) * options.cell_m, 2.25}, {random.normal(), random.normal(), 1.0}, 1.0});
+    HarmonicTile::Workspace workspace;
+    const auto posterior = tile.solve(samples, workspace);
+    for (int column = 0; column < tile.cells(); ++column)
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(posterior.mean_at_samples(column, c),
+                    posterior.mean[static_cast<std::size_t>(c)](column, 4), 1e-9);
+  }
+}
+
 /// A sample of weight 0 is none, and one of weight 2 two of them.
 TEST(HarmonicTile, WeightsCountSamples) {
   HarmonicTileOptions options;

@@ -130,5 +130,21 @@ INSTANTIATE_TEST_SUITE_P(Surveys, TileRegressionAgainstTheExactSolution, ::testi
     Case{"LittleNoiseDrivenOften", 0.45, 0.01, 0.7, 0.15, 10.0}), name_of);
 // clang-format on
 
+TEST(TileRegression, MeanAtSamplesIsThatOfTheCellsTheyLieIn) {
+  TileOptions options;
+  options.cell_m = 0.25;
+  const TileRegression tile(options);
+  std::vector<TileSample> samples = {{{-0.3, 1.0}, {5.0, 5.0, 5.0}, 1.0}};  // outside: not told
+  for (int column = 0; column < tile.cells(); ++column)
+    samples.push_back(
+        {{(column + 0.5) * options.cell_m, 1.125}, {std::sin(column), std::cos(column), 1.0}, 1.0});
+  const auto posterior = tile.solve(samples);
+  EXPECT_EQ(posterior.mean_at_samples.row(0).norm(), 0.0);
+  for (int column = 0; column < tile.cells(); ++column)
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(posterior.mean_at_samples(column + 1, c),
+                  posterior.mean[static_cast<std::size_t>(c)](column, 4), 1e-6);
+}
+
 }  // namespace
 }  // namespace mstsl

@@ -66,8 +66,17 @@ struct VarianceCalibration {
 /// and with few errors stays near, `prior`.
 VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior);
 
-/// Log of the Gaussian density of an error's three components, without the constant.
+/// Weight of something of which `components` were measured, their deviations in standard deviations squared
+/// and summed: the expected inverse variance, relative to that of good ones, where one in a hundred comes
+/// with ten times the noise (a trolley that passed, a pose that jumped; contaminated normal, Tukey 1960). 1
+/// for good ones, 1/2 at a squared sum of 23 for three components.
+double noise_weight(double squared_deviations, int components);
+
+/// Log of the density of an error's three components under such noise, without the constant.
 double log_density(const HeldOutError& error, const VarianceCalibration& calibration);
+
+/// The errors that such noise takes for good ones (weight above 1/2) once their own calibration is known.
+std::vector<HeldOutError> good_errors(std::span<const HeldOutError> errors, const VarianceCalibration& prior);
 
 /// How well predictions held: rms error, and the shares of errors within 1 and 2 of their own standard
 /// deviations (0.68 and 0.95 for an honest Gaussian).

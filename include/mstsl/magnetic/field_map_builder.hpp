@@ -20,6 +20,9 @@ struct FieldMapOptions {
   /// Without an occupancy grid: how far from a fingerprint cells get a value, in m.
   double reach_m = 2.0;
   RegressionQuality quality = RegressionQuality::kFast;
+  /// Whether fingerprints far from what all others say are trusted less (GPR only). Otherwise noise is
+  /// Gaussian.
+  bool heavy_tails = true;
   SurveyAnalysisOptions analysis;  ///< its `threads` is replaced by the one below
   Threads threads;
   /// Called now and then with the share of the work that is done, from one thread at a time.

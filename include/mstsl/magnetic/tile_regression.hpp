@@ -60,6 +60,7 @@ class TileRegression {
   struct Posterior {
     std::array<Eigen::MatrixXd, 3> mean;
     Eigen::MatrixXd variance;
+    Eigen::MatrixX3d mean_at_samples;  ///< one row a sample; 0 for those outside the tile
   };
 
   /// Memory for one solution after another; one thread at a time may use it.

@@ -56,12 +56,12 @@ LongTerm long_term(const WaveBox& box, const Part& part, Index unknown, int c) {
   return of_cosine ? LongTerm{factor, sine} : LongTerm{-factor, cosine};
 }
 
-/// Component c at all cells, column by column, of each long wave's unit amplitudes.
-MatrixXd long_fields(const WaveBox& box, const Part& part, int c) {
-  MatrixXd fields(box.long_waves_at_cells.rows(), box.long_waves_at_cells.cols());
+/// Component c of each long wave's unit amplitudes, where their columns are given.
+MatrixXd long_fields(const WaveBox& box, const Part& part, int c, const MatrixXd& columns) {
+  MatrixXd fields(columns.rows(), columns.cols());
   for (Index u = 0; u < fields.cols(); ++u) {
     const LongTerm term = long_term(box, part, u, c);
-    fields.col(u) = term.factor * box.long_waves_at_cells.col(term.column);
+    fields.col(u) = term.factor * columns.col(term.column);
   }
   return fields;
 }
@@ -87,7 +87,7 @@ struct HarmonicTile::State : WaveBox {
 /// One tile's tables and matrices; their memory serves the next tile.
 struct HarmonicTile::Workspace::State {
   void sum(const WaveBox& box, std::span<const TileSample> samples);
-  void sum_long_waves(const WaveBox& box, const std::vector<const TileSample*>& near);
+  void sum_long_waves(const WaveBox& box, const VectorXd& w, const MatrixXd& readings);
   void solve(const WaveBox& box, const Part& part, const Array3d& information);
   void assemble_waves(const WaveBox& box, const Part& part, const Array3d& information);
   void assemble_long_waves(const WaveBox& box, const Part& part, const Array3d& information);
@@ -103,6 +103,8 @@ struct HarmonicTile::Workspace::State {
   std::array<WaveTable, 3> values;      ///< the same times their values
   std::vector<WaveTable> long_sums;     ///< weights times each column of long waves, summed over samples
   MatrixXd long_products, long_values;  ///< the same columns times each other, and times the values
+  std::vector<Index> near;              ///< the samples that are in tile and halo
+  MatrixXd long_columns;                ///< long waves at them
   WaveTable at_cells;
   MatrixXd precision;  ///< unknowns: cosine and sine of each wave
   VectorXd rhs, solution;
@@ -111,39 +113,34 @@ struct HarmonicTile::Workspace::State {
 
 void HarmonicTile::Workspace::State::sum(const WaveBox& box, std::span<const TileSample> samples) {
   const double low = -box.halo_m, high = box.length_m + box.halo_m;
-  std::vector<const TileSample*> near;
-  for (const TileSample& s : samples)
-    if ((s.position_m.array() >= low).all() && (s.position_m.array() <= high).all()) near.push_back(&s);
-  const auto n = static_cast<Index>(near.size());
-  VectorXd px(n), py(n), w(n);
-  for (Index i = 0; i < n; ++i) {
-    px(i) = near[static_cast<std::size_t>(i)]->position_m.x();
-    py(i) = near[static_cast<std::size_t>(i)]->position_m.y();
-    w(i) = near[static_cast<std::size_t>(i)]->weight;
+  near.clear();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Eigen::Array2d p = samples[i].position_m.array();
+    if ((p >= low).all() && (p <= high).all()) near.push_back(static_cast<Index>(i));
   }
-  x.evaluate(px, box.period_m, 2 * box.highest);
-  y.evaluate(py, box.period_m, 2 * box.highest);
-  sum_over_samples(x, y, w, 2 * box.highest, product, weights);
-  VectorXd wv(n);
-  for (int c = 0; c < 3; ++c) {
-    for (Index i = 0; i < n; ++i) wv(i) = w(i) * near[static_cast<std::size_t>(i)]->value(c);
-    sum_over_samples(x, y, wv, box.highest, product, values[static_cast<std::size_t>(c)]);
-  }
-  sum_long_waves(box, near);
-}
-
-void HarmonicTile::Workspace::State::sum_long_waves(const WaveBox& box,
-                                                    const std::vector<const TileSample*>& near) {
   const auto n = static_cast<Index>(near.size());
   Eigen::MatrixX2d points_m(n, 2);
-  MatrixXd readings(n, 3);
   VectorXd w(n);
+  MatrixXd readings(n, 3);
   for (Index i = 0; i < n; ++i) {
-    points_m.row(i) = near[static_cast<std::size_t>(i)]->position_m.transpose();
-    readings.row(i) = near[static_cast<std::size_t>(i)]->value.matrix().transpose();
-    w(i) = near[static_cast<std::size_t>(i)]->weight;
+    const TileSample& sample = samples[static_cast<std::size_t>(near[static_cast<std::size_t>(i)])];
+    points_m.row(i) = sample.position_m.transpose();
+    w(i) = sample.weight;
+    readings.row(i) = sample.value.matrix().transpose();
   }
-  const MatrixXd columns = long_waves_at(box, points_m), weighted = w.asDiagonal() * columns;
+  x.evaluate(points_m.col(0), box.period_m, 2 * box.highest);
+  y.evaluate(points_m.col(1), box.period_m, 2 * box.highest);
+  sum_over_samples(x, y, w, 2 * box.highest, product, weights);
+  for (int c = 0; c < 3; ++c)
+    sum_over_samples(x, y, w.cwiseProduct(readings.col(c)), box.highest, product,
+                     values[static_cast<std::size_t>(c)]);
+  long_columns = long_waves_at(box, points_m);
+  sum_long_waves(box, w, readings);
+}
+
+void HarmonicTile::Workspace::State::sum_long_waves(const WaveBox& box, const VectorXd& w,
+                                                    const MatrixXd& readings) {
+  const MatrixXd &columns = long_columns, weighted = w.asDiagonal() * columns;
   long_products.setZero(columns.cols(), columns.cols());
   product.add(columns.transpose(), weighted, long_products);
   long_values.setZero(columns.cols(), 3);
@@ -229,8 +226,13 @@ void HarmonicTile::Workspace::State::mean(const WaveBox& box, const Part& part, 
     MatrixXd& mean = posterior.mean[static_cast<std::size_t>(c)];
     set_waves(box, part, c, solution);
     evaluate_at_cells(at_cells, box.cell_harmonics, product, mean);
-    mean.reshaped() +=
-        long_fields(box, part, c) * solution.tail(static_cast<Index>(2 * box.long_waves.size()));
+    const auto long_solution = solution.tail(static_cast<Index>(2 * box.long_waves.size()));
+    mean.reshaped() += long_fields(box, part, c, box.long_waves_at_cells) * long_solution;
+    VectorXd at_samples;
+    evaluate_at_points(at_cells, x, y, product, at_samples);
+    at_samples += long_fields(box, part, c, long_columns) * long_solution;
+    for (std::size_t i = 0; i < near.size(); ++i)
+      posterior.mean_at_samples(near[i], c) = at_samples(static_cast<Index>(i));
   }
 }
 
@@ -265,7 +267,7 @@ void HarmonicTile::Workspace::State::variance(const WaveBox& box, const Part& pa
 void HarmonicTile::Workspace::State::add_long_variance(const WaveBox& box, const Part& part, int c,
                                                        MatrixXd& variance) {
   const auto first = static_cast<Index>(2 * box.waves.size()), n = covariance->rows() - first;
-  const MatrixXd fields = long_fields(box, part, c);
+  const MatrixXd fields = long_fields(box, part, c, box.long_waves_at_cells);
   variance.reshaped() += (fields * covariance->bottomRightCorner(n, n)).cwiseProduct(fields).rowwise().sum();
   MatrixXd shared;
   for (Index u = 0; u < n; ++u) {
@@ -297,6 +299,7 @@ HarmonicTile::Posterior HarmonicTile::solve(std::span<const TileSample> samples,
   const HarmonicHyperparameters& h = state_->options.field;
   const Array3d information = (h.signal_sd_uT / h.noise_sd_uT).square();
   Posterior posterior;
+  posterior.mean_at_samples.setZero(static_cast<Index>(samples.size()), 3);
   for (const Part& part : parts_of(h.side)) {
     work.solve(*state_, part, information * part.component);
     work.mean(*state_, part, posterior);

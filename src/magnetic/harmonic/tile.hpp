@@ -46,6 +46,7 @@ class HarmonicTile {
   /// (column, row) is the cell; in units of signal_sd_uT.
   struct Posterior {
     std::array<Eigen::MatrixXd, 3> mean, variance;
+    Eigen::MatrixX3d mean_at_samples;  ///< one row a sample; 0 for those outside tile and halo
   };
 
   /// Memory for one solution after another; one thread at a time may use it.

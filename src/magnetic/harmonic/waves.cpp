@@ -55,21 +55,50 @@ void sum_over_samples(const Harmonics& x, const Harmonics& y, const VectorXd& we
   sums.imaginary.leftCols(n) = (sc - cs).rowwise().reverse();
 }
 
+namespace {
+
+/// Sum over the waves along x, for each of those along y: real and imaginary part, points x waves.
+struct AlongX {
+  MatrixXd real, imaginary;
+};
+AlongX sum_along_x(const WaveTable& table, const Harmonics& x, MatrixProduct& product) {
+  const int n = table.highest() + 1;
+  const auto cosine = x.cosine.leftCols(n), sine = x.sine.leftCols(n);
+  AlongX sum{MatrixXd::Zero(cosine.rows(), 2 * n - 1), MatrixXd::Zero(cosine.rows(), 2 * n - 1)};
+  product.add(cosine, table.real, sum.real);
+  product.add(sine, table.imaginary, sum.real, -1.0);
+  product.add(cosine, table.imaginary, sum.imaginary);
+  product.add(sine, table.real, sum.imaginary);
+  return sum;
+}
+
+/// Cosines and sines of the numbers -highest .. highest.
+Harmonics both_ways(const Harmonics& y, int highest) {
+  const int n = highest + 1;
+  Harmonics both;
+  both.cosine.resize(y.cosine.rows(), 2 * n - 1);
+  both.sine.resize(y.cosine.rows(), 2 * n - 1);
+  both.cosine << y.cosine.middleCols(1, n - 1).rowwise().reverse(), y.cosine.leftCols(n);
+  both.sine << -y.sine.middleCols(1, n - 1).rowwise().reverse(), y.sine.leftCols(n);
+  return both;
+}
+
+}  // namespace
+
 void evaluate_at_cells(const WaveTable& table, const Harmonics& cells, MatrixProduct& product,
                        MatrixXd& values) {
-  const int n = table.highest() + 1;
-  const auto cosine = cells.cosine.leftCols(n), sine = cells.sine.leftCols(n);
-  MatrixXd real = MatrixXd::Zero(cosine.rows(), 2 * n - 1), imaginary = real;
-  product.add(cosine, table.real, real);
-  product.add(sine, table.imaginary, real, -1.0);
-  product.add(cosine, table.imaginary, imaginary);
-  product.add(sine, table.real, imaginary);
-  MatrixXd cosine_y(cosine.rows(), 2 * n - 1), sine_y(cosine.rows(), 2 * n - 1);
-  cosine_y << cosine.rightCols(n - 1).rowwise().reverse(), cosine;
-  sine_y << -sine.rightCols(n - 1).rowwise().reverse(), sine;
-  values.setZero(cosine.rows(), cosine.rows());
-  product.add(real, cosine_y.transpose(), values);
-  product.add(imaginary, sine_y.transpose(), values, -1.0);
+  const AlongX sum = sum_along_x(table, cells, product);
+  const Harmonics y = both_ways(cells, table.highest());
+  values.setZero(sum.real.rows(), y.cosine.rows());
+  product.add(sum.real, y.cosine.transpose(), values);
+  product.add(sum.imaginary, y.sine.transpose(), values, -1.0);
+}
+
+void evaluate_at_points(const WaveTable& table, const Harmonics& x, const Harmonics& y,
+                        MatrixProduct& product, VectorXd& values) {
+  const AlongX sum = sum_along_x(table, x, product);
+  const Harmonics both = both_ways(y, table.highest());
+  values = (sum.real.cwiseProduct(both.cosine) - sum.imaginary.cwiseProduct(both.sine)).rowwise().sum();
 }
 
 MatrixXd long_waves_at(const WaveBox& box, const Eigen::MatrixX2d& points_m) {

@@ -52,6 +52,10 @@ void sum_over_samples(const Harmonics& x, const Harmonics& y, const Eigen::Vecto
 void evaluate_at_cells(const WaveTable& table, const Harmonics& cells, MatrixProduct& product,
                        Eigen::MatrixXd& values);
 
+/// The same at points that share no lattice.
+void evaluate_at_points(const WaveTable& table, const Harmonics& x, const Harmonics& y,
+                        MatrixProduct& product, Eigen::VectorXd& values);
+
 /// What every tile of a map shares: the waves that are independent a priori, of unit variance each for cosine
 /// and sine.
 struct WaveBox {
