@@ -36,6 +36,12 @@ Eigen::MatrixX3d in_uT(const Eigen::MatrixX3d& deviations, const Array3d& mean_u
   return (deviations.array().rowwise() * unit_uT.transpose()).rowwise() + mean_uT.transpose();
 }
 
+/// A field's slope has the standard deviation of the signal over its length.
+Array3d noise_with_position(const FieldHyperparameters& h) {
+  constexpr double kPositionSd_m = 0.02;
+  return (h.noise_sd_uT.square() + (kPositionSd_m * h.signal_sd_uT / h.length_scale_m).square()).sqrt();
+}
+
 }  // namespace
 
 IndependentEngine::IndependentEngine(std::span<const Fingerprint> fingerprints, const FieldHyperparameters& h,
@@ -47,6 +53,8 @@ IndependentEngine::IndependentEngine(std::span<const Fingerprint> fingerprints, 
       tile_(tile_options(h, components_.front(), cell_m, samples_per_m2, quality)) {}
 
 double IndependentEngine::near_m() const { return kPriorBeyond * h_.length_scale_m(components_.front()); }
+
+Array3d IndependentEngine::noise_sd_uT() const { return noise_with_position(h_); }
 
 TileField IndependentEngine::solve(std::span<const NearFingerprint> around) const {
   auto workspace = workspaces_.take();
@@ -69,6 +77,8 @@ HarmonicEngine::HarmonicEngine(std::span<const Fingerprint> fingerprints, const 
     : fingerprints_(fingerprints), h_(h), tile_({h, cell_m, 0, samples_per_m2, quality}) {}
 
 double HarmonicEngine::near_m() const { return kPriorBeyond * as_independent(h_).length_scale_m(0); }
+
+Array3d HarmonicEngine::noise_sd_uT() const { return noise_with_position(as_independent(h_)); }
 
 TileField HarmonicEngine::solve(std::span<const NearFingerprint> around) const {
   auto workspace = workspaces_.take();

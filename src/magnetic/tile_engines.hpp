@@ -23,7 +23,7 @@ class IndependentEngine final : public TileEngine {
   double halo_m() const override { return tile_.halo_m(); }
   double near_m() const override;
   TileField solve(std::span<const NearFingerprint> around) const override;
-  Eigen::Array3d noise_sd_uT() const override { return h_.noise_sd_uT; }
+  Eigen::Array3d noise_sd_uT() const override;
 
  private:
   std::span<const Fingerprint> fingerprints_;
@@ -45,7 +45,7 @@ class HarmonicEngine final : public TileEngine {
   double halo_m() const override { return tile_.halo_m(); }
   double near_m() const override;
   TileField solve(std::span<const NearFingerprint> around) const override;
-  Eigen::Array3d noise_sd_uT() const override { return h_.noise_sd_uT; }
+  Eigen::Array3d noise_sd_uT() const override;
 
  private:
   std::span<const Fingerprint> fingerprints_;

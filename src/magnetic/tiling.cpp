@@ -150,7 +150,7 @@ double dense_samples_per_m2(std::span<const Vector2d> positions_m, double side_m
 std::vector<double> fill_by_tiles(const TileEngine& engine, std::span<const Fingerprint> fingerprints,
                                   std::span<const Vector2d> positions_m, const FieldArea& area,
                                   const TilingOptions& options, const PutCell& put) {
-  constexpr int kMostRounds = 10;
+  constexpr int kMostRounds = 5;
   constexpr double kStands = 0.25;  // a smaller change of a weight changes no map
   const Tiles tiles(engine, fingerprints, positions_m, area);
   std::vector<Cell> corners = tiles.corners();

@@ -40,7 +40,8 @@ class TileEngine {
   virtual double halo_m() const = 0;  ///< how far around a tile fingerprints matter
   virtual double near_m() const = 0;  ///< cells further from every fingerprint keep the prior
   virtual TileField solve(std::span<const NearFingerprint> around) const = 0;
-  /// Standard deviation of a fingerprint's noise, per component.
+  /// Standard deviation of a fingerprint's noise, per component, for one that may lie 2 cm off (what tracking a
+  /// survey by lidar leaves): where the noise was learned to be less, that is no reason to distrust it.
   virtual Eigen::Array3d noise_sd_uT() const = 0;
 };
 
