@@ -6,6 +6,9 @@
 
 namespace mstsl {
 
+/// Length scales over which fingerprints are counted: half a tile.
+constexpr double kDenseOver = 3.0;
+
 std::size_t fill_by_gpr(const SurveyAnalysis& survey, const FieldArea& area, const FillOptions& options,
                         FieldMap& map) {
   const FieldHyperparameters& h = survey.hyperparameters.values;
@@ -28,12 +31,14 @@ std::size_t fill_by_gpr(const SurveyAnalysis& survey, const FieldArea& area, con
   };
   if (survey.harmonic) {
     fill(HarmonicEngine(survey.fingerprints, *survey.harmonic, cell_m,
-                        dense_samples_per_m2(positions_m, h.length_scale_m(0)), options.quality));
+                        dense_samples_per_m2(positions_m, kDenseOver * h.length_scale_m(0)),
+                        options.quality));
   } else {
     for (const std::vector<int>& components : components_by_covariance(h))
-      fill(IndependentEngine(survey.fingerprints, h, components, cell_m,
-                             dense_samples_per_m2(positions_m, h.length_scale_m(components.front())),
-                             options.quality));
+      fill(IndependentEngine(
+          survey.fingerprints, h, components, cell_m,
+          dense_samples_per_m2(positions_m, kDenseOver * h.length_scale_m(components.front())),
+          options.quality));
   }
   return static_cast<std::size_t>(
       std::count_if(least_weight.begin(), least_weight.end(), [](double weight) { return weight < 0.5; }));

@@ -40,8 +40,8 @@ class TileEngine {
   virtual double halo_m() const = 0;  ///< how far around a tile fingerprints matter
   virtual double near_m() const = 0;  ///< cells further from every fingerprint keep the prior
   virtual TileField solve(std::span<const NearFingerprint> around) const = 0;
-  /// Standard deviation of a fingerprint's noise, per component, for one that may lie 2 cm off (what tracking a
-  /// survey by lidar leaves): where the noise was learned to be less, that is no reason to distrust it.
+  /// Standard deviation of a fingerprint's noise, per component, for one that may lie 2 cm off (what tracking
+  /// a survey by lidar leaves): where the noise was learned to be less, that is no reason to distrust it.
   virtual Eigen::Array3d noise_sd_uT() const = 0;
 };
 
@@ -49,7 +49,9 @@ class TileEngine {
 std::vector<Eigen::Vector2d> in_grid_frame(std::span<const Fingerprint> fingerprints,
                                            const GridGeometry& geometry);
 
-/// Fingerprints per square metre where they are dense: the 95th percentile over squares of that side.
+/// Fingerprints per square metre where they are dense: the 95th percentile over squares of that side. (A
+/// square must hold lanes and what lies between them: the constants of the regressions were fitted to the
+/// mean over both.)
 double dense_samples_per_m2(std::span<const Eigen::Vector2d> positions_m, double side_m);
 
 struct TilingOptions {

@@ -44,6 +44,7 @@ std::vector<const ProductKernel*> usable_product_kernels() {
   std::vector<const ProductKernel*> usable{&kPortableProduct};
 #ifdef MSTSL_X86_KERNELS
   if (__builtin_cpu_supports("avx2")) usable.push_back(&kAvx2Product);
+  if (__builtin_cpu_supports("avx512f")) usable.push_back(&kAvx512Product);
 #endif
   return usable;
 }

@@ -8,7 +8,8 @@ namespace mstsl {
 
 extern const ProductKernel kPortableProduct;
 #ifdef MSTSL_X86_KERNELS
-extern const ProductKernel kAvx2Product;  ///< needs AVX2
+extern const ProductKernel kAvx2Product;    ///< needs AVX2
+extern const ProductKernel kAvx512Product;  ///< needs AVX-512F
 #endif
 
 /// The kernels that this processor runs, the fastest last.

@@ -1,0 +1,5 @@
+#include "product_kernels.hpp"
+
+namespace mstsl {
+const ProductKernel kAvx512Product = product_kernel<8, 3, 8>("AVX-512");
+}
