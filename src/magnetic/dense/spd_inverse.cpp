@@ -64,9 +64,18 @@ bool SpdInverse::invert_factor(Block a) {
 }
 
 const MatrixXd* SpdInverse::operator()(const MatrixXd& matrix) {
-  const Index n = matrix.rows();
   factor_ = matrix;
-  if (scratch_.rows() < n) scratch_.resize(n, n);
+  return invert_held();
+}
+
+const MatrixXd* SpdInverse::invert(MatrixXd&& matrix) {
+  factor_.swap(matrix);
+  return invert_held();
+}
+
+const MatrixXd* SpdInverse::invert_held() {
+  const Index n = factor_.rows(), half = (n + 1) / 2;
+  if (scratch_.rows() < half) scratch_.resize(half, half);
   if (!invert_factor(factor_)) return nullptr;
   // A^-1 = L^-T L^-1: rows of its lower triangle only need rows of L^-1 from there down.
   inverse_.setZero(n, n);

@@ -15,8 +15,12 @@ class SpdInverse {
   /// Reads the lower triangle. The inverse, full and symmetric, valid until the next call; null where the
   /// matrix is not positive definite.
   const Eigen::MatrixXd* operator()(const Eigen::MatrixXd& matrix);
+  /// The same for a matrix that is not needed any more, without a copy of it; what it holds then is of no
+  /// use.
+  const Eigen::MatrixXd* invert(Eigen::MatrixXd&& matrix);
 
  private:
+  const Eigen::MatrixXd* invert_held();
   bool invert_factor(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> a);
 
   MatrixProduct product_;
