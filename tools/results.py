@@ -5,7 +5,8 @@
     tools/results.py --check   exit 1 if docs/results.md is not what the reports say
 
 A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Reports are those of `mstsl bench --protocol
-paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json) and of tools/real_results.sh (real/METHOD_SEED.json).
+paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of tools/real_results.sh (real/METHOD_SEED.json), of
+tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (hard/results_SET.json).
 """
 import json
 import math
@@ -92,7 +93,28 @@ def real_table():
                   "CLD median, max", "first error, median"], rows)
 
 
-TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table}
+def three(values, factor=1.0, digits=2):
+    return " ".join(f"{factor * value:.{digits}f}" for value in values)
+
+
+def field_table():
+    names = {"--kernel se": "gpr, squared exponential", "--kernel auto": "gpr, chosen by lanes",
+             "--model bilinear": "bilinear", "--model fingerprint": "fingerprint"}
+    drives = {"cea-corridor": ["the other pass"],
+              "aalto-robot": ["drive 5, nothing changed"] + [f"drive {n}, steel brought in" for n in (6, 7, 8, 9)]}
+    rows = []
+    for entry in reports("field")["real"]:
+        name = names[entry["way"]]
+        if entry["report"].get("kernel", {}).get("chosen") == "harmonic":
+            name += f": harmonic, steel {entry['report']['kernel']['harmonic']['steel']}"
+        for drive, check in zip(drives[entry["dataset"]], entry["report"]["checks"]):
+            rows.append([entry["dataset"], drive, name, three(check["rms_uT"]), three(check["within_1_sigma"], 100, 0),
+                         three(check["within_2_sigma"], 100, 0)])
+    rows.sort(key=lambda row: (row[0] == "aalto-robot", row[1]))
+    return table(["survey of", "foretells", "model", "rms x y z, uT", "within 1 sigma, %", "2 sigma, %"], rows)
+
+
+TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table}
 
 
 def main():

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,18 @@ std::vector<std::string> provenance(const Wish& wish) {
   return lines;
 }
 
+/// A drive that made the map cannot show how well it foretells another.
+std::optional<Error> checked_by_itself(const Wish& wish) {
+  for (const fs::path& check : wish.checks)
+    for (const fs::path& log : wish.logs) {
+      std::error_code ignored;  // one that is absent is complained of where it is read
+      if (fs::equivalent(check, log, ignored))
+        return Error(
+            fmt::format("{} makes the map and cannot check it; give --check another drive", check.string()));
+    }
+  return std::nullopt;
+}
+
 /// Each log of its own: a drive on another day has another bias, and one bad drive should be seen as such.
 Result<std::vector<CheckedLog>> check(const Session& session, const Wish& wish, const io::PlayOptions& play,
                                       const FieldMap& field) {
@@ -101,6 +114,7 @@ Result<Exit> map_magnetic(const Session& session, const Wish& wish) {
   if (auto error = overwritten_input(outputs, inputs)) return *std::move(error);
   if (!wish.initial_pose.empty())
     return Error("--initial-pose is not offered yet; give --pose-topic with the poses of the survey");
+  if (auto error = checked_by_itself(wish)) return *std::move(error);
   const Result<io::MapFile> occupancy = io::read_map_file(wish.map);
   if (!occupancy) return occupancy.error();
   warn(session, occupancy->warnings);

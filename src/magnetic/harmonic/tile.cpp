@@ -205,7 +205,8 @@ void HarmonicTile::Workspace::State::solve(const WaveBox& box, const Part& part,
   assemble_waves(box, part, information);
   assemble_long_waves(box, part, information);
   precision.diagonal().array() += 1.0;
-  covariance = inverse.invert(std::move(precision));  // I + something positive: rounding alone cannot spoil it
+  covariance =
+      inverse.invert(std::move(precision));  // I + something positive: rounding alone cannot spoil it
   assert(covariance != nullptr);
   solution = *covariance * rhs;
 }
