@@ -118,8 +118,10 @@ int surplus_noise(const Block& block, const VectorXd& logs) {
   return best;
 }
 
-/// Leaves out blocks with more than twice the noise of most: something moved there while the survey was made,
-/// and the length scale and noise of all must not be learned from it.
+/// Leaves out blocks with more than twice the noise of most, whatever their length scale: something moved
+/// there while the survey was made, and nothing must be learned from it for all. (A rougher field than
+/// elsewhere is none of that: with a shorter length scale of its own such a block has no more noise than
+/// others.)
 std::vector<Block> quiet_blocks(const std::vector<Block>& blocks, const VectorXd& logs, Threads threads) {
   constexpr int kTwice = 2;
   std::vector<int> steps(blocks.size());
@@ -128,8 +130,11 @@ std::vector<Block> quiet_blocks(const std::vector<Block>& blocks, const VectorXd
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   std::vector<Block> quiet;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (steps[b] <= *middle + kTwice) quiet.push_back(blocks[b]);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const double allowed = logs(1) + 0.5 * std::log(2.0) * (*middle + kTwice);
+    if (steps[b] <= *middle + kTwice || search({blocks[b]}, threads).at(1) <= allowed)
+      quiet.push_back(blocks[b]);
+  }
   return quiet;
 }
 
