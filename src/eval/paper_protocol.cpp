@@ -51,6 +51,7 @@ Result<std::vector<Maps>> make_maps(const sim::World& world, const std::vector<F
   for (const FieldModel model : options.models) {
     FieldMapOptions build;
     build.model = model;
+    build.analysis.kernel = KernelChoice::kSquaredExponential;  // the paper's Gaussian kernel
     build.threads = options.threads;
     build.progress = [&](double share) { teller.tell("field map", share); };
     Result<FieldMap> field = build_field_map(fingerprints, &occupancy, build);
