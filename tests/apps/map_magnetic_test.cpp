@@ -25,9 +25,9 @@ class Surveyed {
 
  private:
   Surveyed() {
-    const Printed made =
-        run_app("simulate --world corridor --size 30,16 --lane-spacing 3 --survey-scan-hz 0 --runs 0 --quiet -o " +
-                folder_.path().string());
+    const Printed made = run_app(
+        "simulate --world corridor --size 30,16 --lane-spacing 3 --survey-scan-hz 0 --runs 0 --quiet -o " +
+        folder_.path().string());
     if (made.exit_status != 0) throw std::runtime_error(made.text);
     std::filesystem::copy_file(path("survey_00.mcap"), path("another.mcap"));  // as if driven again
   }
