@@ -57,8 +57,8 @@ double dense_samples_per_m2(std::span<const Eigen::Vector2d> positions_m, double
 struct TilingOptions {
   bool heavy_tails = true;  ///< whether fingerprints far from the field are trusted less, see noise_weight()
   Threads threads;
-  std::function<void(double)>
-      progress;  ///< called now and then with the share done, from one thread at a time
+  /// Called now and then with the share done, from one thread at a time.
+  std::function<void(double)> progress;
 };
 
 /// Fills the engine's components of all wanted cells; `put` writes one of them: cell, component, mean and

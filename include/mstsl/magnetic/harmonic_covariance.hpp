@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <string>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -26,6 +25,9 @@ enum class SourceSide : std::uint8_t {
   kBoth  ///< as much below as above: B_z is then independent of the horizontal components
 };
 std::string_view to_string(SourceSide side);
+
+/// Components that are correlated with each other and with no others, in order.
+std::vector<std::vector<int>> coupled_components(SourceSide side);
 
 /// Least noise, as a share of signal_sd: fingerprints that lie a centimetre off cost as much.
 inline constexpr double kMinHarmonicNoise = 0.01;

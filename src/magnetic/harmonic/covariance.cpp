@@ -16,6 +16,11 @@ std::string_view to_string(SourceSide side) {
   return "both";
 }
 
+std::vector<std::vector<int>> coupled_components(SourceSide side) {
+  if (side == SourceSide::kBoth) return {{0, 1}, {2}};
+  return {{0, 1, 2}};
+}
+
 Eigen::Array3d HarmonicHyperparameters::component_sd_uT() const {
   return signal_sd_uT * Eigen::Array3d(std::sqrt(0.5), std::sqrt(0.5), 1.0);
 }

@@ -60,11 +60,6 @@ Predictions predict(const HarmonicHyperparameters& h, std::span<const Fingerprin
 
 }  // namespace
 
-std::vector<std::vector<int>> coupled_components(SourceSide side) {
-  if (side == SourceSide::kBoth) return {{0, 1}, {2}};
-  return {{0, 1, 2}};
-}
-
 MatrixXd harmonic_covariance(const HarmonicHyperparameters& h, std::span<const Eigen::Vector2d> rows_m,
                              std::span<const Eigen::Vector2d> columns_m) {
   const auto rows = static_cast<Index>(rows_m.size()), columns = static_cast<Index>(columns_m.size());

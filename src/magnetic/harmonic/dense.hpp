@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -11,9 +10,6 @@
 
 /// Exact regression with the harmonic covariance: three rows a fingerprint, cost (3 n)^3.
 namespace mstsl {
-
-/// Components that are independent of the others, in order.
-std::vector<std::vector<int>> coupled_components(SourceSide side);
 
 /// Covariance of the fields at two sets of points in uT^2, all x first, then all y, all z; without noise.
 Eigen::MatrixXd harmonic_covariance(const HarmonicHyperparameters& h, std::span<const Eigen::Vector2d> rows_m,

@@ -9,9 +9,13 @@ using Eigen::MatrixXd;
 using Wave = WaveBox::Wave;
 
 std::vector<PotentialPart> parts_of(SourceSide side) {
-  if (side == SourceSide::kBelow) return {{{1, 1, 1}, 1.0}};
-  if (side == SourceSide::kAbove) return {{{1, 1, 1}, -1.0}};
-  return {{{1, 1, 0}, 1.0}, {{0, 0, 1}, 1.0}};
+  std::vector<PotentialPart> parts;
+  for (const std::vector<int>& components : coupled_components(side)) {
+    PotentialPart& part =
+        parts.emplace_back(PotentialPart{Array3d::Zero(), side == SourceSide::kAbove ? -1.0 : 1.0});
+    for (const int c : components) part.component(c) = 1.0;
+  }
+  return parts;
 }
 
 Complex field_of(const Wave& wave, const PotentialPart& part, int c) {

@@ -129,10 +129,7 @@ WaveBox::WaveBox(const HarmonicTileOptions& o, const HarmonicFineness& fineness)
     for (int b = a == 0 ? 1 : -most; b <= most; ++b) {
       const double k = step * std::hypot(a, b);
       if (k > u) continue;
-      // The sheet's spectrum 2 pi exp(-k D) / k, times k^2, over a cell of the lattice of waves; twice, for
-      // the opposite wave is the same.
-      const double variance = step * step / (2 * kPi) * k * std::exp(-k);
-      waves.push_back({a, b, Eigen::Vector2d(a, b).normalized(), std::sqrt(variance)});
+      waves.push_back({a, b, Eigen::Vector2d(a, b).normalized(), amplitude(k, step)});
       highest = std::max({highest, a, std::abs(b)});
     }
   // The lattice's cell around zero in nine, the one around zero in nine again.
