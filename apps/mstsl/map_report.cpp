@@ -163,8 +163,8 @@ std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analys
       score_line("over the same floor", analysis.held_out.same_floor_before, analysis.held_out.same_floor);
   text +=
       score_line("between lanes", analysis.held_out.between_lanes_before, analysis.held_out.between_lanes);
-  text += fmt::format("a later reading differs by {} where the map is sure\n",
-                      three(analysis.calibration.reading_sd_uT, " uT"));
+  text += fmt::format("a later reading differs by {} where the map is sure and the field of usual strength\n",
+                      three(analysis.calibration.of_variance.reading_variance_uT2().sqrt(), " uT"));
   if (!checks.empty()) text += "other drives, x y z:\n";
   for (const CheckedLog& log : checks) text += check_text(log);
   text += fmt::format("{} x {} cells of {} m, {} with a value, {} near a fingerprint\n", map.geometry.columns,

@@ -34,8 +34,7 @@ Trial tried(std::span<const Fingerprint> fingerprints, const std::vector<HeldOut
   std::vector<HeldOutError> all;
   for (const auto& part : errors) all.insert(all.end(), part.begin(), part.end());
   if (all.empty()) return {};
-  const VarianceCalibration before{Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT};
-  const VarianceCalibration calibration = calibrate(good_errors(all, before), before);
+  const VarianceCalibration calibration = calibrate(all, uncalibrated(h.noise_sd_uT, h.signal_sd_uT));
   Trial trial;
   trial.rms_uT = score(all, calibration).rms_uT;
   trial.mean_log_density = 0.0;

@@ -65,63 +65,12 @@ std::vector<std::size_t> training_for(std::span<const Vector2d> points, const Po
   return training;
 }
 
-/// Most probable (factor, reading variance) of one component by Fisher scoring; each with a log-normal prior
-/// around where it starts, worth a few errors.
-struct OneComponent {
-  double factor, reading, prior_uT2;
-
-  /// The map's part of the variance, and its derivative by ln(factor).
-  std::pair<double, double> map_part(double variance_uT2) const {
-    const double share = variance_uT2 / prior_uT2;
-    const double below = 1.0 + (factor - 1.0) * share;
-    return {factor * variance_uT2 / below,
-            factor * variance_uT2 * std::max(0.0, 1.0 - share) / (below * below)};
-  }
-
-  void fit(std::span<const HeldOutError> errors, int c) {
-    constexpr int kIterations = 50;
-    constexpr double kPriorErrors = 3.0, kLeastFactor = 0.1, kMostFactor = 100.0;
-    const OneComponent start = *this;
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
-      // Gradient and information of the log likelihood by (ln factor, ln reading variance).
-      double gf = -kPriorErrors * std::log(factor / start.factor),
-             gr = -kPriorErrors * std::log(reading / start.reading);
-      double ff = kPriorErrors, rr = kPriorErrors, fr = 0.0;
-      for (const HeldOutError& e : errors) {
-        const auto [from_map, slope] = map_part(e.variance_uT2(c));
-        const double total = from_map + reading;
-        const double weight = 0.5 / (total * total);
-        const double surplus = weight * (e.error_uT(c) * e.error_uT(c) - total);
-        gf += surplus * slope;
-        gr += surplus * reading;
-        ff += weight * slope * slope;
-        rr += weight * reading * reading;
-        fr += weight * slope * reading;
-      }
-      const double determinant = ff * rr - fr * fr;
-      const double step_f = std::clamp((rr * gf - fr * gr) / determinant, -1.0, 1.0);
-      const double step_r = std::clamp((ff * gr - fr * gf) / determinant, -1.0, 1.0);
-      factor = std::clamp(factor * std::exp(step_f), kLeastFactor, kMostFactor);
-      reading *= std::exp(step_r);
-      if (std::abs(step_f) + std::abs(step_r) < 1e-6) break;
-    }
-  }
-};
-
 constexpr double kBadShare = 0.01, kBadTimesTheNoise = 10.0;
 constexpr double kBadPrecision = 1.0 / (kBadTimesTheNoise * kBadTimesTheNoise);
 
 double log_odds_of_bad(double squared_deviations, int components) {
   return std::log(kBadShare / (1.0 - kBadShare)) - components * std::log(kBadTimesTheNoise) +
          0.5 * (1.0 - kBadPrecision) * squared_deviations;
-}
-
-/// What bad ones add to the log of the density of good ones.
-double log_of_tails(double squared_deviations, int components) {
-  const double log_odds = log_odds_of_bad(squared_deviations, components);
-  const double added =
-      log_odds > 0.0 ? log_odds + std::log1p(std::exp(-log_odds)) : std::log1p(std::exp(log_odds));
-  return std::log(1.0 - kBadShare) + added;
 }
 
 }  // namespace
@@ -158,7 +107,8 @@ std::vector<HeldOutError> held_out_errors(std::span<const Fingerprint> fingerpri
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (!predictions[k]) continue;
       const Eigen::Vector3d& seen = fingerprints[stretches[s].tested[k]].field_uT;
-      parts[s].push_back({(seen - predictions[k]->mean_uT).array(), predictions[k]->variance_uT2.array()});
+      parts[s].push_back({(seen - predictions[k]->mean_uT).array(), predictions[k]->variance_uT2.array(), 1.0,
+                          s, stretches[s].tested[k]});
     }
   });
   std::vector<HeldOutError> all;
@@ -166,63 +116,9 @@ std::vector<HeldOutError> held_out_errors(std::span<const Fingerprint> fingerpri
   return all;
 }
 
-Array3d VarianceCalibration::apply(const Array3d& variance_uT2) const {
-  return factor * variance_uT2 / (1.0 + (factor - 1.0) * variance_uT2 / prior_sd_uT.square()) +
-         reading_sd_uT.square();
-}
-
 double noise_weight(double squared_deviations, int components) {
   const double bad = 1.0 / (1.0 + std::exp(-log_odds_of_bad(squared_deviations, components)));
   return 1.0 - bad * (1.0 - kBadPrecision);
-}
-
-VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior) {
-  VarianceCalibration calibration = prior;
-  for (int c = 0; c < 3; ++c) {
-    const double reading = std::max(prior.reading_sd_uT(c) * prior.reading_sd_uT(c), 1e-12);
-    OneComponent one{prior.factor(c), reading, prior.prior_sd_uT(c) * prior.prior_sd_uT(c)};
-    one.fit(errors, c);
-    calibration.factor(c) = one.factor;
-    calibration.reading_sd_uT(c) = std::sqrt(one.reading);
-  }
-  return calibration;
-}
-
-double log_density(const HeldOutError& error, const VarianceCalibration& calibration) {
-  const Array3d variance = calibration.apply(error.variance_uT2);
-  const double squared = (error.error_uT.square() / variance).sum();
-  return -0.5 * (squared + variance.log().sum()) + log_of_tails(squared, 3);
-}
-
-std::vector<HeldOutError> good_errors(std::span<const HeldOutError> errors,
-                                      const VarianceCalibration& prior) {
-  constexpr int kRounds = 5;
-  std::vector<HeldOutError> good(errors.begin(), errors.end());
-  for (int round = 0; round < kRounds; ++round) {
-    const VarianceCalibration calibration = calibrate(good, prior);
-    std::vector<HeldOutError> next;
-    for (const HeldOutError& e : errors)
-      if (noise_weight((e.error_uT.square() / calibration.apply(e.variance_uT2)).sum(), 3) > 0.5)
-        next.push_back(e);
-    if (next.size() == good.size()) break;
-    good = std::move(next);
-  }
-  return good;
-}
-
-HeldOutScore score(std::span<const HeldOutError> errors, const VarianceCalibration& calibration) {
-  HeldOutScore score;
-  score.errors = errors.size();
-  if (errors.empty()) return score;
-  const double share = 1.0 / static_cast<double>(errors.size());
-  for (const HeldOutError& e : errors) {
-    const Array3d sigmas = e.error_uT.abs() / calibration.apply(e.variance_uT2).max(1e-30).sqrt();
-    score.rms_uT += share * e.error_uT.square();
-    score.within_1_sigma += share * (sigmas <= 1.0).cast<double>();
-    score.within_2_sigma += share * (sigmas <= 2.0).cast<double>();
-  }
-  score.rms_uT = score.rms_uT.sqrt();
-  return score;
 }
 
 }  // namespace mstsl

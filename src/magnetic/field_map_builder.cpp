@@ -30,8 +30,12 @@ void describe(const SurveyAnalysis& survey, FieldMap& map) {
   const auto put = [&](const std::string& name, const Eigen::Array3d& values, const std::string& unit) {
     for (int c = 0; c < 3; ++c) map.hyperparameters[name + "_" + "xyz"[c] + unit] = values(c);
   };
-  put("reading_sd", survey.calibration.reading_sd_uT, "_uT");
-  if (survey.model == FieldModel::kGpr) put("variance_factor", survey.calibration.factor, "");
+  const VarianceCalibration& calibration = survey.calibration.of_variance;
+  put("reading_even_sd", calibration.even_sd_uT, "_uT");
+  put("reading_uneven_sd", calibration.uneven_sd_uT, "_uT");
+  put("strength_power", calibration.power, "");
+  map.hyperparameters["strength_radius_m"] = survey.calibration.strength_radius_m;
+  if (survey.model == FieldModel::kGpr) put("variance_factor", calibration.factor, "");
   const auto put_score = [&](const std::string& name, const HeldOutScore& score) {
     if (score.errors == 0) return;
     put(name + "_rms", score.rms_uT, "_uT");

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "field_models.hpp"
+#include "field_strength.hpp"
 #include "tile_engines.hpp"
 
 namespace mstsl {
@@ -15,10 +16,12 @@ std::size_t fill_by_gpr(const SurveyAnalysis& survey, const FieldArea& area, con
   const auto positions_m = in_grid_frame(survey.fingerprints, area.geometry);
   std::vector<double> least_weight(survey.fingerprints.size(), 1.0);
   const double cell_m = area.geometry.resolution_m;
+  const FieldStrength strength = strength_of(survey);
   const PutCell put = [&](std::size_t cell, int c, double mean_uT, double variance_uT2) {
+    const double strength_here = strength.at(area.geometry.center_of(area.geometry.cell(cell)));
     map.mean_uT[cell](c) = static_cast<float>(mean_uT);
-    map.variance_uT2[cell](c) =
-        static_cast<float>(survey.calibration.apply(Eigen::Array3d::Constant(variance_uT2))(c));
+    map.variance_uT2[cell](c) = static_cast<float>(
+        survey.calibration.of_variance.apply(Eigen::Array3d::Constant(variance_uT2), strength_here)(c));
   };
   for (std::size_t cell = 0; cell < area.wanted.size(); ++cell)
     for (int c = 0; area.wanted[cell] != 0 && c < 3; ++c)

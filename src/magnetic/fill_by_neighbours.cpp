@@ -3,6 +3,7 @@
 
 #include "bilinear_lattice.hpp"
 #include "field_models.hpp"
+#include "field_strength.hpp"
 #include "point_bins.hpp"
 
 namespace mstsl {
@@ -10,10 +11,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Neither model knows a variance: every cell has that of the held-out lanes.
-void put(const SurveyAnalysis& survey, const Eigen::Vector3d& mean_uT, std::size_t cell, FieldMap& map) {
+/// Neither model knows a variance: every cell has that of the held-out lanes where the field is as strong.
+void put(const SurveyAnalysis& survey, const FieldStrength& strength, const Eigen::Vector3d& mean_uT,
+         std::size_t cell, FieldMap& map) {
+  const double strength_here = strength.at(map.geometry.center_of(map.geometry.cell(cell)));
   map.mean_uT[cell] = mean_uT.cast<float>();
-  map.variance_uT2[cell] = survey.calibration.reading_sd_uT.square().matrix().cast<float>();
+  map.variance_uT2[cell] =
+      survey.calibration.of_variance.reading_variance_uT2(strength_here).matrix().cast<float>();
 }
 
 }  // namespace
@@ -24,11 +28,12 @@ void fill_by_bilinear(const SurveyAnalysis& survey, const FieldArea& area, Field
   for (const Fingerprint& f : survey.fingerprints)
     positions.push_back(geometry.to_grid(f.position_m) * geometry.resolution_m);
   const BilinearLattice lattice(positions, survey.fingerprints, survey.bilinear_spacing_m);
+  const FieldStrength strength = strength_of(survey);
   for (std::size_t i = 0; i < area.wanted.size(); ++i) {
     if (area.wanted[i] == 0) continue;
     const Cell cell = geometry.cell(i);
     const auto mean = lattice.at(Vector2d(cell.column + 0.5, cell.row + 0.5) * geometry.resolution_m);
-    if (mean) put(survey, *mean, i, map);
+    if (mean) put(survey, strength, *mean, i, map);
   }
 }
 
@@ -36,6 +41,7 @@ void fill_by_fingerprint(const SurveyAnalysis& survey, const FieldArea& area, Fi
   std::vector<Vector2d> positions;
   for (const Fingerprint& f : survey.fingerprints) positions.push_back(f.position_m);
   const PointBins bins(positions, 0.25);
+  const FieldStrength strength = strength_of(survey);
   for (std::size_t i = 0; i < area.wanted.size(); ++i) {
     const double reach_m = static_cast<double>(area.distance_m[i]) + 2.0 * area.geometry.resolution_m;
     if (area.wanted[i] == 0 || reach_m > kFingerprintReach_m) continue;
@@ -47,7 +53,7 @@ void fill_by_fingerprint(const SurveyAnalysis& survey, const FieldArea& area, Fi
       if (distance2 < nearest2) nearest2 = distance2, nearest = k;
     });
     if (nearest2 <= kFingerprintReach_m * kFingerprintReach_m)
-      put(survey, survey.fingerprints[nearest].field_uT, i, map);
+      put(survey, strength, survey.fingerprints[nearest].field_uT, i, map);
   }
 }
 

@@ -6,17 +6,14 @@
 #include <vector>
 
 #include "mstsl/magnetic/predictors.hpp"
+#include "mstsl/magnetic/variance_calibration.hpp"
 
 namespace mstsl {
 namespace {
 
 /// Mean log density of held-out errors under the calibration that suits them best.
-double mean_log_density(std::span<const HeldOutError> errors, const FieldHyperparameters& h) {
-  const VarianceCalibration before{Eigen::Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT};
-  const VarianceCalibration calibration = calibrate(good_errors(errors, before), before);
-  double sum = 0.0;
-  for (const HeldOutError& e : errors) sum += log_density(e, calibration);
-  return errors.empty() ? 0.0 : sum / static_cast<double>(errors.size());
+double best_log_density(std::span<const HeldOutError> errors, const FieldHyperparameters& h) {
+  return mean_log_density(errors, calibrate(errors, uncalibrated(h.noise_sd_uT, h.signal_sd_uT)));
 }
 
 }  // namespace
@@ -43,7 +40,7 @@ FieldHyperparameters noise_from_lanes(std::span<const Fingerprint> fingerprints,
     auto errors = held_out_errors(fingerprints, same_floor, gpr_predictor(h), threads);
     const auto more = held_out_errors(fingerprints, between, gpr_predictor(h), threads);
     errors.insert(errors.end(), more.begin(), more.end());
-    const double density = mean_log_density(errors, h);
+    const double density = best_log_density(errors, h);
     if (!(density > best_density)) break;  // one maximum: more noise is only worse from here
     best_density = density;
     best = h;

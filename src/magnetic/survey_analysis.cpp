@@ -1,6 +1,9 @@
 #include "mstsl/magnetic/survey_analysis.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +12,7 @@
 
 #include "bilinear_lattice.hpp"
 #include "choose_kernel.hpp"
+#include "field_strength.hpp"
 #include "harmonic/dense.hpp"
 #include "noise_by_lane.hpp"
 
@@ -119,20 +123,24 @@ void check_by_lane(SurveyAnalysis& analysis, const SurveyAnalysisOptions& option
   HoldOutWays ways = hold_out_ways(
       length_m, analysis.model == FieldModel::kFingerprint ? 0.5 * kFingerprintReach_m : 0.5 * length_m);
   if (analysis.harmonic) ways.same_floor.training = ways.between_lanes.training = kHarmonicTraining;
-  const Predictor predict = predictor_for(analysis);
-  const auto errors_of = [&](const HoldOutOptions& o) {
-    return held_out_errors(analysis.fingerprints, hold_out_lanes(analysis.fingerprints, o), predict,
-                           options.threads);
-  };
-  const std::vector<HeldOutError> same_floor = errors_of(ways.same_floor),
-                                  between = errors_of(ways.between_lanes);
-  std::vector<HeldOutError> all = same_floor;
-  all.insert(all.end(), between.begin(), between.end());
-  const VarianceCalibration before{Array3d::Ones(), h.noise_sd_uT, h.signal_sd_uT};
-  analysis.calibration = options.calibrate_variance ? calibrate(all, before) : before;
-  analysis.held_out = {score(same_floor, before), score(same_floor, analysis.calibration),
-                       score(between, before), score(between, analysis.calibration)};
-  if (all.empty())
+  std::vector<HeldOutStretch> stretches = hold_out_lanes(analysis.fingerprints, ways.same_floor);
+  const std::size_t over_same_floor = stretches.size();
+  for (HeldOutStretch& stretch : hold_out_lanes(analysis.fingerprints, ways.between_lanes))
+    stretches.push_back(std::move(stretch));
+  std::vector<HeldOutError> errors =
+      held_out_errors(analysis.fingerprints, stretches, predictor_for(analysis), options.threads);
+  const VarianceCalibration before = uncalibrated(h.noise_sd_uT, h.signal_sd_uT);
+  analysis.calibration = {before, 0.0};
+  if (options.calibrate_variance)
+    analysis.calibration =
+        calibrate_locally(errors, stretches, analysis.fingerprints, h.mean_uT, before, options.threads);
+  const auto between = std::ranges::partition_point(
+      errors, [&](const HeldOutError& e) { return e.stretch < over_same_floor; });
+  const std::span same_floor_errors(errors.begin(), between), between_errors(between, errors.end());
+  const VarianceCalibration& after = analysis.calibration.of_variance;
+  analysis.held_out = {score(same_floor_errors, before), score(same_floor_errors, after),
+                       score(between_errors, before), score(between_errors, after)};
+  if (errors.empty())
     analysis.warnings.push_back(
         "the survey is too short to leave a lane out: the map's variance could not be checked");
 }

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <span>
 
-#include "mstsl/magnetic/cross_validation.hpp"
 #include "mstsl/magnetic/field_map.hpp"
 #include "mstsl/magnetic/fingerprint.hpp"
+#include "mstsl/magnetic/variance_calibration.hpp"
 
 namespace mstsl {
 

@@ -16,6 +16,7 @@
 #include "mstsl/magnetic/learn_hyperparameters.hpp"
 #include "mstsl/magnetic/outliers.hpp"
 #include "mstsl/magnetic/survey_bias.hpp"
+#include "mstsl/magnetic/variance_calibration.hpp"
 
 namespace mstsl {
 
@@ -79,7 +80,7 @@ struct SurveyAnalysis {
   std::optional<KernelComparison> kernel_comparison;
   double bilinear_spacing_m = 0.0;
   HeldOutReport held_out;
-  VarianceCalibration calibration;  ///< from the model's variance to that of a later reading
+  LocalCalibration calibration;  ///< from the model's variance to that of a later reading
   std::vector<std::string> warnings;
 };
 
