@@ -9,6 +9,7 @@
 
 #include "mstsl/magnetic/predictors.hpp"
 
+#include "contaminated_noise.hpp"
 #include "harmonic/dense.hpp"
 #include "harmonic/learn.hpp"
 #include "noise_by_lane.hpp"
@@ -34,13 +35,14 @@ Trial tried(std::span<const Fingerprint> fingerprints, const std::vector<HeldOut
   std::vector<HeldOutError> all;
   for (const auto& part : errors) all.insert(all.end(), part.begin(), part.end());
   if (all.empty()) return {};
-  const VarianceCalibration calibration = calibrate(all, uncalibrated(h.noise_sd_uT, h.signal_sd_uT));
+  const VarianceCalibration calibration =
+      calibrate_good_ones(all, uncalibrated(h.noise_sd_uT, h.signal_sd_uT));
   Trial trial;
   trial.rms_uT = score(all, calibration).rms_uT;
   trial.mean_log_density = 0.0;
   for (const auto& part : errors) {
     double sum = 0.0;
-    for (const HeldOutError& e : part) sum += log_density(e, calibration);
+    for (const HeldOutError& e : part) sum += contaminated_log_density(e, calibration);
     trial.mean_log_density += sum / static_cast<double>(all.size());
     trial.log_density.push_back(part.empty() ? 0.0 : sum / static_cast<double>(part.size()));
   }

@@ -65,14 +65,6 @@ std::vector<std::size_t> training_for(std::span<const Vector2d> points, const Po
   return training;
 }
 
-constexpr double kBadShare = 0.01, kBadTimesTheNoise = 10.0;
-constexpr double kBadPrecision = 1.0 / (kBadTimesTheNoise * kBadTimesTheNoise);
-
-double log_odds_of_bad(double squared_deviations, int components) {
-  return std::log(kBadShare / (1.0 - kBadShare)) - components * std::log(kBadTimesTheNoise) +
-         0.5 * (1.0 - kBadPrecision) * squared_deviations;
-}
-
 }  // namespace
 
 std::vector<HeldOutStretch> hold_out_lanes(std::span<const Fingerprint> fingerprints,
@@ -114,11 +106,6 @@ std::vector<HeldOutError> held_out_errors(std::span<const Fingerprint> fingerpri
   std::vector<HeldOutError> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
-}
-
-double noise_weight(double squared_deviations, int components) {
-  const double bad = 1.0 / (1.0 + std::exp(-log_odds_of_bad(squared_deviations, components)));
-  return 1.0 - bad * (1.0 - kBadPrecision);
 }
 
 }  // namespace mstsl

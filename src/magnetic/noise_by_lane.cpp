@@ -6,14 +6,19 @@
 #include <vector>
 
 #include "mstsl/magnetic/predictors.hpp"
-#include "mstsl/magnetic/variance_calibration.hpp"
+
+#include "contaminated_noise.hpp"
 
 namespace mstsl {
 namespace {
 
 /// Mean log density of held-out errors under the calibration that suits them best.
 double best_log_density(std::span<const HeldOutError> errors, const FieldHyperparameters& h) {
-  return mean_log_density(errors, calibrate(errors, uncalibrated(h.noise_sd_uT, h.signal_sd_uT)));
+  const VarianceCalibration calibration =
+      calibrate_good_ones(errors, uncalibrated(h.noise_sd_uT, h.signal_sd_uT));
+  double sum = 0.0;
+  for (const HeldOutError& e : errors) sum += contaminated_log_density(e, calibration);
+  return errors.empty() ? 0.0 : sum / static_cast<double>(errors.size());
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <utility>
 
+#include "contaminated_noise.hpp"
+
 namespace mstsl {
 namespace {
 

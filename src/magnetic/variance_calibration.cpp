@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "maximise.hpp"
+#include <Eigen/Cholesky>
 
 namespace mstsl {
 namespace {
 
 using Eigen::Array3d;
+using Eigen::Matrix4d;
 using Eigen::Vector4d;
 
 constexpr double kFreedom = 4.0;  // as joint::Surprise has it
@@ -22,20 +23,26 @@ double strengthened(double strength, double power) {
   return std::pow(std::clamp(strength, kLeastStrength, kMostStrength), power);
 }
 
-/// Log of the density of an error of that variance, and its derivative by the variance.
+/// Log of the density of an error of that variance, and its derivative by the variance's log.
 struct Density {
-  double log, slope;
+  double log, by_log_variance;
 };
-Density density(double error, double variance) {
+Density density(double error, double variance, Tails tails) {
+  if (tails == Tails::kNone) {
+    const double squared = error * error / variance;
+    return {-0.5 * (std::log(variance) + squared), -0.5 + 0.5 * squared};
+  }
   const double scale2 = variance / kScalesOfOneSigma2, squared = error * error / scale2;
   const double log = -0.5 * std::log(scale2) - 0.5 * (kFreedom + 1) * std::log1p(squared / kFreedom);
-  const double by_log = -0.5 + 0.5 * (kFreedom + 1) * squared / (kFreedom + squared);
-  return {log, by_log / variance};
+  return {log, -0.5 + 0.5 * (kFreedom + 1) * squared / (kFreedom + squared)};
 }
+/// Fisher information on the variance's log in one error.
+double information(Tails tails) { return tails == Tails::kNone ? 0.5 : 0.5 * kFreedom / (kFreedom + 3.0); }
 
 /// Of one component: logs of the factor and of both readings' variances, and the power.
 struct OneComponent {
   double prior_uT2;
+  Tails tails;
 
   enum : int { kFactor, kEven, kUneven, kPower };
 
@@ -54,24 +61,49 @@ struct OneComponent {
     return {from_map + even + uneven, {by_factor, even, uneven, by_log_b * log_strength}};
   }
 
-  Objective log_posterior(const Vector4d& at, const Vector4d& expected, std::span<const HeldOutError> errors,
-                          int c) const {
+  /// Log of the posterior with its slope and Fisher information.
+  struct Posterior {
+    double log = 0.0;
+    Vector4d slope = Vector4d::Zero();
+    Matrix4d information = Matrix4d::Zero();
+  };
+  Posterior posterior(const Vector4d& at, const Vector4d& expected, std::span<const HeldOutError> errors,
+                      int c) const {
     // Priors worth a few errors, so that few errors do not run away.
     const Vector4d precision(3.0, 1.0, 1.0, 1.0), off = at - expected;
-    Objective sum{-0.5 * off.dot(precision.cwiseProduct(off)), -precision.cwiseProduct(off)};
+    Posterior sum{-0.5 * off.dot(precision.cwiseProduct(off)), -precision.cwiseProduct(off),
+                  precision.asDiagonal()};
     for (const HeldOutError& e : errors) {
       const Variance variance = of(at, e.variance_uT2(c), e.strength);
-      const Density d = density(e.error_uT(c), variance.value);
-      sum.value += d.log;
-      sum.gradient += d.slope * variance.slope;
+      const Density d = density(e.error_uT(c), variance.value, tails);
+      const Vector4d by_log = variance.slope / variance.value;
+      sum.log += d.log;
+      sum.slope += d.by_log_variance * by_log;
+      sum.information += information(tails) * by_log * by_log.transpose();
     }
     return sum;
   }
 
+  /// Fisher scoring; a step that makes it worse is halved.
   Vector4d fit(const Vector4d& expected, std::span<const HeldOutError> errors, int c) const {
-    const Vector4d low = expected - Vector4d(4.0, 12.0, 12.0, 1e-6), high = expected + Vector4d(5, 12, 12, 3);
-    const auto objective = [&](const Eigen::VectorXd& at) { return log_posterior(at, expected, errors, c); };
-    return maximise(objective, expected + Vector4d(0, 0, 0, 0.5), low, high).at;
+    constexpr int kIterations = 60, kHalvings = 8;
+    constexpr double kMostPower = 3.0, kConverged = 1e-6;
+    Vector4d at = expected + Vector4d(0, 0, 0, 0.5);
+    Posterior here = posterior(at, expected, errors, c);
+    for (int i = 0; i < kIterations; ++i) {
+      Vector4d step = here.information.ldlt().solve(here.slope);
+      step /= std::max(1.0, step.cwiseAbs().maxCoeff());
+      bool better = false;
+      for (int k = 0; k < kHalvings && !better; ++k, step *= 0.5) {
+        Vector4d there = at + step;
+        there(kPower) = std::clamp(there(kPower), 0.0, kMostPower);
+        const Posterior next = posterior(there, expected, errors, c);
+        better = next.log > here.log;
+        if (better) at = there, here = next;
+      }
+      if (!better || step.cwiseAbs().maxCoeff() < kConverged) break;
+    }
+    return at;
   }
 };
 
@@ -95,11 +127,12 @@ Array3d VarianceCalibration::apply(const Array3d& variance_uT2, double strength)
   return result;
 }
 
-VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior) {
+VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior,
+                              Tails tails) {
   VarianceCalibration calibration = prior;
   if (errors.empty()) return calibration;
   for (int c = 0; c < 3; ++c) {
-    const OneComponent one{prior.prior_sd_uT(c) * prior.prior_sd_uT(c)};
+    const OneComponent one{prior.prior_sd_uT(c) * prior.prior_sd_uT(c), tails};
     const Vector4d at = one.fit({std::log(prior.factor(c)), log_variance(prior.even_sd_uT(c)),
                                  log_variance(prior.uneven_sd_uT(c)), prior.power(c)},
                                 errors, c);
@@ -118,16 +151,12 @@ VarianceCalibration uncalibrated(const Array3d& noise_sd_uT, const Array3d& prio
   return own;
 }
 
-double log_density(const HeldOutError& error, const VarianceCalibration& calibration) {
-  const Array3d variance = calibration.apply(error.variance_uT2, error.strength);
-  double sum = 0.0;
-  for (int c = 0; c < 3; ++c) sum += density(error.error_uT(c), variance(c)).log;
-  return sum;
-}
-
 double mean_log_density(std::span<const HeldOutError> errors, const VarianceCalibration& calibration) {
   double sum = 0.0;
-  for (const HeldOutError& e : errors) sum += log_density(e, calibration);
+  for (const HeldOutError& e : errors) {
+    const Array3d variance = calibration.apply(e.variance_uT2, e.strength);
+    for (int c = 0; c < 3; ++c) sum += density(e.error_uT(c), variance(c), Tails::kHeavy).log;
+  }
   return errors.empty() ? 0.0 : sum / static_cast<double>(errors.size());
 }
 

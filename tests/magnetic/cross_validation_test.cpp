@@ -89,55 +89,5 @@ TEST(HeldOutErrors, AreThoseOfThePredictor) {
   EXPECT_EQ(k, errors.size());
 }
 
-/// Errors whose true variance is known: a factor on what the map claims, plus that of a reading.
-std::vector<HeldOutError> errors_with(double factor, double reading_sd_uT, double prior_sd_uT,
-                                      std::uint64_t seed) {
-  Random random(seed);
-  std::vector<HeldOutError> errors(4000);
-  VarianceCalibration truth;
-  truth.factor.setConstant(factor);
-  truth.reading_sd_uT.setConstant(reading_sd_uT);
-  truth.prior_sd_uT.setConstant(prior_sd_uT);
-  for (HeldOutError& e : errors) {
-    e.variance_uT2.setConstant(std::pow(10.0, random.uniform(-2.0, 1.0)));
-    for (int c = 0; c < 3; ++c) e.error_uT(c) = random.normal() * std::sqrt(truth.apply(e.variance_uT2)(c));
-  }
-  return errors;
-}
-
-TEST(Calibrate, FindsTheFactorAndTheNoiseOfAReading) {
-  const VarianceCalibration start{Eigen::Array3d::Ones(), Eigen::Array3d::Constant(0.1),
-                                  Eigen::Array3d::Constant(7.0)};
-  const auto errors = errors_with(4.0, 0.6, 7.0, 41);
-  const auto found = calibrate(errors, start);
-  for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(found.factor(c) / 4.0, 1.0, 0.15);
-    EXPECT_NEAR(found.reading_sd_uT(c) / 0.6, 1.0, 0.1);
-  }
-  const HeldOutScore before = score(errors, start), after = score(errors, found);
-  EXPECT_LT(before.within_1_sigma.maxCoeff(), 0.5);  // overconfident
-  for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(after.within_1_sigma(c), 0.683, 0.03);
-    EXPECT_NEAR(after.within_2_sigma(c), 0.954, 0.015);
-  }
-  EXPECT_TRUE((before.rms_uT == after.rms_uT).all());
-}
-
-TEST(Calibrate, StaysWithThePriorWithoutErrors) {
-  const VarianceCalibration start{Eigen::Array3d::Constant(1.5), Eigen::Array3d::Constant(0.4),
-                                  Eigen::Array3d::Constant(7.0)};
-  const auto found = calibrate({}, start);
-  EXPECT_TRUE(found.factor.isApprox(start.factor, 1e-9));
-  EXPECT_TRUE(found.reading_sd_uT.isApprox(start.reading_sd_uT, 1e-9));
-}
-
-TEST(VarianceCalibration, KeepsThePriorWhereNothingIsKnown) {
-  VarianceCalibration calibration;
-  calibration.factor.setConstant(9.0);
-  calibration.prior_sd_uT.setConstant(7.0);
-  EXPECT_NEAR(calibration.apply(Eigen::Array3d::Constant(49.0)).x(), 49.0, 1e-12);
-  EXPECT_NEAR(calibration.apply(Eigen::Array3d::Constant(0.01)).x(), 0.09, 1e-3);
-}
-
 }  // namespace
 }  // namespace mstsl

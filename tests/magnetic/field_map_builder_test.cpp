@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,19 @@ double distance_to(const std::vector<Fingerprint>& survey, const Eigen::Vector2d
   return nearest;
 }
 
+/// Of a reading where the map is sure and the field of usual strength.
+double reading_uT2(const FieldMap& map, const std::string& axis) {
+  return std::pow(map.hyperparameters.at("reading_even_sd_" + axis + "_uT"), 2) +
+         std::pow(map.hyperparameters.at("reading_uneven_sd_" + axis + "_uT"), 2);
+}
+
+/// By how much the strongest field that is distinguished raises the prior's variance.
+double strongest(const std::map<std::string, double>& hyperparameters, const std::string& axis) {
+  return std::pow(1e3, hyperparameters.at("strength_power_" + axis));
+}
+
 /// What holds for every map of any survey: values are finite or absent, variances positive and no larger than
-/// the prior's, support means a fingerprint within a length scale.
+/// the prior's where the field is no stronger than usual, support means a fingerprint within a length scale.
 void expect_sane(const FieldMap& map, const std::vector<Fingerprint>& survey) {
   const auto& h = map.hyperparameters;
   const double length_m = h.at("length_scale_x_m");
@@ -47,11 +59,10 @@ void expect_sane(const FieldMap& map, const std::vector<Fingerprint>& survey) {
     }
     for (int c = 0; c < 3; ++c) {
       const std::string axis(1, "xyz"[c]);
-      const double prior_uT2 =
-          std::pow(h.at("signal_sd_" + axis + "_uT"), 2) + std::pow(h.at("reading_sd_" + axis + "_uT"), 2);
+      const double prior_uT2 = std::pow(h.at("signal_sd_" + axis + "_uT"), 2) + reading_uT2(map, axis);
       EXPECT_TRUE(std::isfinite(map.mean_uT[i](c)));
       EXPECT_GT(map.variance_uT2[i](c), 0.0F);
-      EXPECT_LE(map.variance_uT2[i](c), 1.0001 * prior_uT2);
+      EXPECT_LE(map.variance_uT2[i](c), 1.0001 * prior_uT2 * strongest(h, axis));
     }
     const double distance_m = distance_to(survey, map.geometry.center_of(cell));
     const double diagonal_m = std::sqrt(2.0) * map.geometry.resolution_m;
@@ -209,8 +220,7 @@ TEST(BuildFieldMap, ReturnsToThePriorFarFromData) {
   const std::vector<Fingerprint> survey = drive(field, {3.0, 2.0, 0.5}, random);
   const FieldMap map = must(build_field_map(survey, nullptr, options));
   const double far_m = 6.0 * map.hyperparameters.at("length_scale_x_m");
-  const double prior_uT2 = std::pow(map.hyperparameters.at("signal_sd_x_uT"), 2) +
-                           std::pow(map.hyperparameters.at("reading_sd_x_uT"), 2);
+  const double prior_uT2 = std::pow(map.hyperparameters.at("signal_sd_x_uT"), 2) + reading_uT2(map, "x");
   int seen = 0;
   for (std::size_t i = 0; i < map.geometry.size(); ++i) {
     const Cell cell = map.geometry.cell(i);

@@ -5,6 +5,7 @@
 
 #include "mstsl/magnetic/field_map_builder.hpp"
 
+#include "contaminated_noise.hpp"
 #include "hand_made_survey.hpp"
 #include "test_support.hpp"
 #include "tiling.hpp"

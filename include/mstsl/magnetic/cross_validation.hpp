@@ -52,10 +52,4 @@ std::vector<HeldOutError> held_out_errors(std::span<const Fingerprint> fingerpri
                                           const std::vector<HeldOutStretch>& stretches,
                                           const Predictor& predict, Threads threads);
 
-/// Weight of something of which `components` were measured, their deviations in standard deviations squared
-/// and summed: the expected inverse variance, relative to that of good ones, where one in a hundred comes
-/// with ten times the noise (a trolley that passed, a pose that jumped; contaminated normal, Tukey 1960). 1
-/// for good ones, 1/2 at a squared sum of 23 for three components.
-double noise_weight(double squared_deviations, int components);
-
 }  // namespace mstsl

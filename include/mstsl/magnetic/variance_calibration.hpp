@@ -35,11 +35,15 @@ struct VarianceCalibration {
   Eigen::Array3d reading_variance_uT2(double strength = 1.0) const;
 };
 
-/// The calibration under which held-out errors are most probable, component by component. Errors have heavy
-/// tails (Student's t, 4 degrees of freedom: steel that one lane passes and the next does not), so that a few
-/// wild ones do not decide what the map is worth elsewhere; 68 % of them lie within one standard deviation.
-/// Starts from, and with few errors stays near, `prior`.
-VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior);
+/// How errors are distributed: with heavy tails (Student's t, 4 degrees of freedom: steel that one lane
+/// passes and the next does not), so that a few wild ones do not decide what the map is worth elsewhere; or
+/// without (Gaussian), once wild ones are left out.
+enum class Tails { kHeavy, kNone };
+
+/// The calibration under which held-out errors are most probable, component by component; 68 % of them lie
+/// within one standard deviation. Starts from, and with few errors stays near, `prior`.
+VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior,
+                              Tails tails = Tails::kHeavy);
 
 /// A calibration, and the radius (m) within which the field's strength is measured for it; 0: none is.
 struct LocalCalibration {
@@ -50,8 +54,7 @@ struct LocalCalibration {
 /// The prior of the above for a regression that has its own noise.
 VarianceCalibration uncalibrated(const Eigen::Array3d& noise_sd_uT, const Eigen::Array3d& prior_sd_uT);
 
-/// Log of the density of an error's three components, without the constant.
-double log_density(const HeldOutError& error, const VarianceCalibration& calibration);
+/// Log of the density of an error's three components under that, mean over the errors, without the constant.
 double mean_log_density(std::span<const HeldOutError> errors, const VarianceCalibration& calibration);
 
 /// How well predictions held: rms error, and the shares of errors within 1 and 2 of their own standard

@@ -86,11 +86,14 @@ void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion
 double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
                        const Eigen::Vector2d& magnetometer_m, const FieldModel& model) {
   const Expected e = expect(mode, station, field, magnetometer_m, model);
-  let_wander(mode.state, mode.covariance, station.since_last_m, model.error_length_m, e.error_variance_uT2);
+  let_wander(mode.state, mode.covariance, station.since_last_m, model.error_length_m,
+             (1.0 - model.error_own_share) * e.error_variance_uT2);
 
-  const Eigen::Matrix3d noise =
-      (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d base_R_map = e.by_state.block<3, 3>(0, kMapError);
+  const Eigen::Vector3d own_uT2 = model.error_own_share * e.error_variance_uT2;
+  const Eigen::Matrix3d noise =
+      (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity() +
+      base_R_map * own_uT2.asDiagonal() * base_R_map.transpose();
   const Eigen::Vector3d off_jumped = station.base_field_uT - e.without_map_error_uT;
   const Eigen::Vector3d off = off_jumped - base_R_map * mode.state.segment<3>(kMapError);
   const Surprise as_mapped(e.by_state * mode.covariance * e.by_state.transpose() + noise, off);
