@@ -86,36 +86,42 @@ void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion
 double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
                        const Eigen::Vector2d& magnetometer_m, const FieldModel& model) {
   const Expected e = expect(mode, station, field, magnetometer_m, model);
-  let_wander(mode.state, mode.covariance, station.since_last_m, model.error_length_m,
-             (1.0 - model.error_own_share) * e.error_variance_uT2);
-
   const Eigen::Matrix3d base_R_map = e.by_state.block<3, 3>(0, kMapError);
   const Eigen::Vector3d own_uT2 = model.error_own_share * e.error_variance_uT2;
   const Eigen::Matrix3d noise =
       (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity() +
       base_R_map * own_uT2.asDiagonal() * base_R_map.transpose();
-  const Eigen::Vector3d off_jumped = station.base_field_uT - e.without_map_error_uT;
-  const Eigen::Vector3d off = off_jumped - base_R_map * mode.state.segment<3>(kMapError);
-  const Surprise as_mapped(e.by_state * mode.covariance * e.by_state.transpose() + noise, off);
 
+  // Where the map is good its error wanders on; where steel was moved it is anything, and goes on from there.
+  Mode mapped = mode, changed = mode;
+  let_wander(mapped.state, mapped.covariance, station.since_last_m, model.error_length_m,
+             (1.0 - model.error_own_share) * e.error_variance_uT2);
   const Eigen::Vector3d anything = field.spread_uT().cwiseAbs2() + e.error_variance_uT2;
-  const auto others = e.by_state.leftCols<kMapError>();
-  const Surprise changed(others * mode.covariance.topLeftCorner<kMapError, kMapError>() * others.transpose() +
-                             base_R_map * anything.asDiagonal() * base_R_map.transpose() + noise,
-                         off_jumped);
+  if (mode.changed > 0.5)
+    let_wander(changed.state, changed.covariance, station.since_last_m, field.length_m(), anything);
+  else
+    forget_map_error(changed.state, changed.covariance, anything);
+  const auto surprise = [&](const Mode& m) {
+    const Eigen::Vector3d off =
+        station.base_field_uT - e.without_map_error_uT - base_R_map * m.state.segment<3>(kMapError);
+    return Surprise(e.by_state * m.covariance * e.by_state.transpose() + noise, off);
+  };
+  const Surprise as_mapped = surprise(mapped), as_changed = surprise(changed);
 
-  const double way_m = std::min(station.since_last_m, 1.0);
-  const double chance = std::clamp(1.0 - std::exp(-way_m / model.change_every_m), 1e-4, 0.5);
-  const double stayed = std::log1p(-chance) + as_mapped.log_density();
-  const double jumped = std::log(chance) + changed.log_density();
-  if (jumped > stayed) {
-    forget_map_error(mode.state, mode.covariance, anything);
-    shift_pose(mode, correct(mode.covariance, e.by_state, changed));
-  } else {
-    shift_pose(mode, correct(mode.covariance, e.by_state, as_mapped));
-  }
-  const double more = std::max(stayed, jumped), less = std::min(stayed, jumped);
-  return more + std::log1p(std::exp(less - more));
+  const double way_m = std::clamp(station.since_last_m, 1e-3, 1.0);
+  const double begins = 1.0 - std::exp(-way_m / model.change_every_m),
+               lasts = std::exp(-way_m / model.change_length_m);
+  const double chance = mode.changed * lasts + (1.0 - mode.changed) * begins;
+  const double if_mapped = std::log1p(-chance) + as_mapped.log_density();
+  const double if_changed = std::log(chance) + as_changed.log_density();
+  const double more = std::max(if_mapped, if_changed), less = std::min(if_mapped, if_changed);
+  const double log_density = more + std::log1p(std::exp(less - more));
+  Mode& likelier = if_changed > if_mapped ? changed : mapped;
+  shift_pose(likelier,
+             correct(likelier.covariance, e.by_state, if_changed > if_mapped ? as_changed : as_mapped));
+  likelier.changed = std::exp(if_changed - log_density);
+  mode = likelier;
+  return log_density;
 }
 
 void reseat(Mode& mode, const WallFit& fit, const Eigen::Matrix3d& pose_covariance, double loosen_uT) {

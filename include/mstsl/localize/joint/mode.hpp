@@ -25,6 +25,7 @@ struct Mode {
   Vector state = Vector::Zero();  ///< the pose's three entries stay 0: it is kept in map_T_base
   Covariance covariance = Covariance::Zero();
   double log_weight = 0.0;  ///< natural log; normalised by ModeBank
+  double changed = 0.0;     ///< probability that the map is of no use here: steel was moved
 
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
@@ -50,8 +51,9 @@ struct FieldModel {
   /// centimetres, and a pose is not known to centimetres. 0.06 to 0.2 on held-out lanes.
   double error_own_share = 0.12;
   /// Steel that was moved makes the map useless for a while: how often on the way that begins, one in so many
-  /// metres.
+  /// metres, and for how long it lasts: the length of a parked car, half that of a rack.
   double change_every_m = 8.0;
+  double change_length_m = 2.0;
 };
 
 /// A mode at a pose of covariance `pose_covariance`, nothing known of the magnetometer.
@@ -62,8 +64,8 @@ void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion
              double bias_walk_uT);
 
 /// Takes in a station: an extended Kalman update. The map's error is a stationary process along the way
-/// (Matern 3/2: smooth, as fields are), so that near stations do not count as independent; steel that was
-/// moved may let it jump to anything. Returns the natural log of the station's density under the mode.
+/// (Matern 3/2: smooth, as fields are), so that near stations do not count as independent; where steel was
+/// moved it is as large as the field itself. Returns the natural log of the station's density under the mode.
 double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
                        const Eigen::Vector2d& magnetometer_m, const FieldModel& model);
 
