@@ -33,10 +33,10 @@ struct Surprise {
   Surprise(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& off_uT) : llt(covariance), off(off_uT) {
     squared = llt.matrixL().solve(off).squaredNorm();
   }
-  /// Natural log of the density, but for a constant.
-  double log_density() const {
-    return -0.5 * (kFreedom + 3) * std::log1p(squared / kFreedom) -
-           llt.matrixLLT().diagonal().array().log().sum();
+  /// Natural log of the density, but for a constant, the variances being `factor` times what was expected.
+  double log_density(double factor = 1.0) const {
+    return -0.5 * (kFreedom + 3) * std::log1p(squared / (factor * kFreedom)) -
+           llt.matrixLLT().diagonal().array().log().sum() - 1.5 * std::log(factor);
   }
   /// By how much the covariance must grow for the reading to be an ordinary one.
   double inflation() const { return std::max(1.0, (kFreedom + squared) / (kFreedom + 3)); }

@@ -83,6 +83,14 @@ void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion
   mode.map_T_base = mode.map_T_base * last_T_base;
 }
 
+void ErrorScale::learn(double squared, double way_m, double length_m) {
+  constexpr double kMost = 30.0;  // one wild station is one, not a rule
+  const double kept = std::exp(-way_m / length_m);
+  const ErrorScale before;
+  weight = before.weight + kept * (weight - before.weight) + 3.0;
+  squares = before.squares + kept * (squares - before.squares) + std::min(squared, kMost);
+}
+
 double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
                        const Eigen::Vector2d& magnetometer_m, const FieldModel& model) {
   const Expected e = expect(mode, station, field, magnetometer_m, model);
@@ -112,7 +120,7 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   const double begins = 1.0 - std::exp(-way_m / model.change_every_m),
                lasts = std::exp(-way_m / model.change_length_m);
   const double chance = mode.changed * lasts + (1.0 - mode.changed) * begins;
-  const double if_mapped = std::log1p(-chance) + as_mapped.log_density();
+  const double if_mapped = std::log1p(-chance) + as_mapped.log_density(mode.scale.factor());
   const double if_changed = std::log(chance) + as_changed.log_density();
   const double more = std::max(if_mapped, if_changed), less = std::min(if_mapped, if_changed);
   const double log_density = more + std::log1p(std::exp(less - more));
@@ -120,6 +128,7 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   shift_pose(likelier,
              correct(likelier.covariance, e.by_state, if_changed > if_mapped ? as_changed : as_mapped));
   likelier.changed = std::exp(if_changed - log_density);
+  likelier.scale.learn(if_changed > if_mapped ? 3.0 : as_mapped.squared, way_m, model.scale_length_m);
   mode = likelier;
   return log_density;
 }

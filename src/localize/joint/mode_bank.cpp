@@ -45,6 +45,8 @@ Mode merged_modes(const Mode& a, const Mode& b) {
   both.covariance =
       (1 - share_b) * a.covariance + share_b * b.covariance + share_b * (1 - share_b) * off * off.transpose();
   both.log_weight = a.log_weight - std::log1p(-share_b);
+  both.scale.weight = (1 - share_b) * a.scale.weight + share_b * b.scale.weight;
+  both.scale.squares = (1 - share_b) * a.scale.squares + share_b * b.scale.squares;
   both.changed = (1 - share_b) * a.changed + share_b * b.changed;
   return both;
 }

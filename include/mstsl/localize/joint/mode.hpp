@@ -20,12 +20,24 @@ using Vector = Eigen::Matrix<double, kStates, 1>;
 /// changes along the way (in lengths of its correlation: uT).
 enum Part : int { kPose = 0, kBias = 3, kMotor = 6, kMapError = 9, kMapErrorSlope = 12 };
 
+/// How far off the stations of the last metre were against what was expected, squared: the variance that the
+/// map claims is right on average, and wrong by a factor that lasts for a while. Conjugate (inverse gamma),
+/// forgetting with the way.
+struct ErrorScale {
+  double weight = 4.0, squares = 4.0;  ///< numbers of deviations, and their squares in variances
+
+  double factor() const { return squares / weight; }
+  /// Three deviations whose squares sum to `squared`, `way_m` after the last.
+  void learn(double squared, double way_m, double length_m);
+};
+
 struct Mode {
   Pose2 map_T_base;
   Vector state = Vector::Zero();  ///< the pose's three entries stay 0: it is kept in map_T_base
   Covariance covariance = Covariance::Zero();
   double log_weight = 0.0;  ///< natural log; normalised by ModeBank
   double changed = 0.0;     ///< probability that the map is of no use here: steel was moved
+  ErrorScale scale;
 
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
@@ -54,6 +66,8 @@ struct FieldModel {
   /// metres, and for how long it lasts: the length of a parked car, half that of a rack.
   double change_every_m = 8.0;
   double change_length_m = 2.0;
+  /// For how long (m) the map's variance stays wrong by the same factor.
+  double scale_length_m = 1.0;
 };
 
 /// A mode at a pose of covariance `pose_covariance`, nothing known of the magnetometer.
