@@ -67,6 +67,12 @@ void Joint::observe(const FieldReading& field) {
   }
   last_field_ = field.stamp;
   waiting_.push_back(field);
+  // Odometry that comes later than this does not come: the drive goes on without these readings.
+  constexpr double kPatience_s = 3.0;
+  while (field.stamp - waiting_.front().stamp > kPatience_s) {
+    waiting_.pop_front();
+    ++counts_.field_without_odometry;
+  }
   take_waiting(false);
 }
 
@@ -194,12 +200,6 @@ Estimate Joint::estimate() const {
     estimate.bias_uT = rig_.base_T_magnetometer.linear().transpose() * best.state.segment<3>(joint::kBias);
   if (status_ == LocalizationStatus::kLocalized) estimate.map_T_base = best.map_T_base;
   return estimate;
-}
-
-std::optional<Error> invalid(const JointOptions& options) {
-  if (!(options.localized_from > 0.5 && options.localized_from < 1.0))
-    return Error("the probability from which a pose is published must lie between 0.5 and 1");
-  return std::nullopt;
 }
 
 }  // namespace mstsl

@@ -1,5 +1,7 @@
 #include "mstsl/localize/joint/joint.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "../hand_made_world.hpp"
@@ -145,11 +147,25 @@ TEST_F(JointTest, WaitsForOdometryThatComesSeldom) {
   EXPECT_GT(localizer.report().counts.at("field stations"), 40u);
 }
 
+TEST_F(JointTest, DoesNotHoardReadingsForOdometryThatNeverComes) {
+  Joint localizer(maps, rig);
+  for (int i = 0; i < 5000; ++i)
+    localizer.observe(FieldReading{Stamp::from_seconds(0.01 * i), {20.0, 0.0, -40.0}});
+  EXPECT_GT(localizer.report().counts.at("field readings dropped (no odometry near their time)"), 4600u);
+}
+
 TEST(JointOptions, AreRefusedWhereTheyMakeNoSense) {
   EXPECT_FALSE(invalid(JointOptions{}));
-  JointOptions options;
-  options.localized_from = 1.5;
-  ASSERT_TRUE(invalid(options));
+  const auto refused = [](auto change) {
+    JointOptions options;
+    change(options);
+    return invalid(options).has_value();
+  };
+  EXPECT_TRUE(refused([](JointOptions& o) { o.localized_from = 1.5; }));
+  EXPECT_TRUE(refused([](JointOptions& o) { o.lost_below = 0.9995; }));
+  EXPECT_TRUE(refused([](JointOptions& o) { o.agree_m = std::nan(""); }));
+  EXPECT_TRUE(refused([](JointOptions& o) { o.bank.field.map_error_floor_uT = 0.0; }));
+  EXPECT_TRUE(refused([](JointOptions& o) { o.bank.field_temper = -0.1; }));
 }
 
 }  // namespace

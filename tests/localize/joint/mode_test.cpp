@@ -123,6 +123,49 @@ TEST(Mode, SurvivesChangedSteelByAJump) {
   EXPECT_LT(distance(mode.map_T_base, start * Pose2{3.9, 0, 0}), 0.15);
 }
 
+TEST(ErrorScale, FollowsWhatStationsShowAndForgetsIt) {
+  ErrorScale scale;
+  EXPECT_EQ(scale.factor(), 1.0);
+  for (int i = 0; i < 20; ++i) scale.learn(0.15, 0.12, 1.0);  // a fifth of the deviation expected
+  EXPECT_LT(scale.factor(), 0.25);
+  ErrorScale later = scale;
+  later.learn(3.0, 10.0, 1.0);  // ten metres on, as expected
+  EXPECT_NEAR(later.factor(), 1.0, 0.01);
+  scale.learn(1e9, 0.12, 1.0);  // one wild station is not a rule
+  EXPECT_LT(scale.factor(), 3.0);
+}
+
+TEST(Surprise, OfVariancesThatAreAllWrongByAFactor) {
+  Eigen::Matrix3d covariance;
+  covariance << 4, 1, 0.5, 1, 3, -0.2, 0.5, -0.2, 2;
+  const Eigen::Vector3d off(1.5, -2, 0.7);
+  for (const double factor : {0.1, 1.0, 7.0})
+    EXPECT_NEAR(Surprise(covariance, off).log_density(factor),
+                Surprise(factor * covariance, off).log_density(), 1e-12);
+}
+
+/// Twenty stations that are off a map by a hundredth of a microtesla, at a place whose map claims `sd_uT`.
+double log_density_on_a_map_of(double sd_uT) {
+  const test::HandMadeWorld world;
+  const Pose2 start{4, 1, 0};
+  FieldModel model;
+  model.map_error_floor_uT = sd_uT;
+  Mode mode = make_mode(start, diagonal(0.02, 0.01), model);
+  double sum = 0;
+  for (int i = 0; i < 40; ++i) {
+    Station station = station_at(world, start * Pose2{0.12 * i, 0, 0}, {0.01, -0.01, 0.01});
+    if (i > 0) station.since_last_m = 0.12, predict(mode, {0.12, 0, 0}, diagonal(0.003, 0.002), 0);
+    const double log_density = update_by_field(mode, station, world.maps->field_cells, {0, 0}, model);
+    if (i >= 20) sum += log_density;
+  }
+  return sum;
+}
+
+TEST(Mode, IsNotRuledOutForAModestMapThatFits) {
+  // At three times the standard deviation a fixed scale costs 3.3 nats a station.
+  EXPECT_LT(log_density_on_a_map_of(1.0) - log_density_on_a_map_of(3.0), 20 * 2.2);
+}
+
 TEST(Mode, TakesFromAScanOnlyWhatItFixes) {
   Mode mode = make_mode({1, 2, 0}, diagonal(0.3, 0.1), {});
   // Along a corridor in x nothing is known.
