@@ -10,15 +10,15 @@ namespace {
 
 void add_map_magnetic(CLI::App& map, Session& session) {
   auto wish = std::make_shared<MagneticMapWish>();
-  wish->play.topics.scan.clear();
-  wish->play.topics.odometry.clear();
   wish->play.topics.imu.clear();
   CLI::App* command = map.add_subcommand("magnetic", "Make a magnetic field map from the logs of a survey");
   command->add_option("--map", wish->map, "Occupancy map: a map_server yaml")->required();
   auto* poses = command->add_option_group("poses", "Where the robot was during the survey");
   poses->add_option("--pose-topic", wish->play.topics.pose, "Topic with the robot's poses in the map");
-  poses->add_option("--initial-pose", wish->initial_pose,
-                    "X,Y,YAW (m, rad) at the start of each log; not offered yet");
+  poses->add_option(
+      "--initial-pose", wish->initial_pose,
+      "X,Y,YAW (m, rad) at the start of each log, to about 1 m and 20 deg: where the robot went from "
+      "there is then found from scans and odometry");
   poses->require_option(1);
   command->add_option("--model", wish->model, "How the field between the fingerprints is made")
       ->check(CLI::IsMember({"gpr", "bilinear", "fingerprint"}))
@@ -45,6 +45,13 @@ void add_map_magnetic(CLI::App& map, Session& session) {
       ->check(CLI::Range(0.005, 10.0))
       ->capture_default_str();
   command->add_option("--field-topic", wish->play.topics.magnetic_field, "MagneticField messages")
+      ->capture_default_str()
+      ->group("Names in the log");
+  command->add_option("--scan-topic", wish->play.topics.scan, "LaserScan messages (with --initial-pose)")
+      ->capture_default_str()
+      ->group("Names in the log");
+  command
+      ->add_option("--odometry-topic", wish->play.topics.odometry, "Odometry messages (with --initial-pose)")
       ->capture_default_str()
       ->group("Names in the log");
   command

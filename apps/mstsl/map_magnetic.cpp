@@ -1,6 +1,7 @@
 #include "map_magnetic.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -62,12 +63,23 @@ std::optional<Error> checked_by_itself(const MagneticMapWish& wish) {
   return std::nullopt;
 }
 
+/// Without poses in the logs, where they begin.
+Result<std::optional<KnownStart>> known_start(const MagneticMapWish& wish, const OccupancyGrid& occupancy) {
+  if (wish.initial_pose.empty()) return std::optional<KnownStart>();
+  const Result<Pose2> pose = pose_from(wish.initial_pose);
+  if (!pose) return pose.error().within("--initial-pose");
+  if (count(occupancy, CellState::kOccupied) == 0)
+    return Error(wish.map.string() + ": the map has no wall to track the survey by");
+  return std::optional(KnownStart{std::make_shared<const WallField>(occupancy), *pose});
+}
+
 /// Each log of its own: a drive on another day has another bias, and one bad drive should be seen as such.
 Result<std::vector<CheckedLog>> check(const Session& session, const MagneticMapWish& wish,
-                                      const io::PlayOptions& play, const FieldMap& field) {
+                                      const io::PlayOptions& play, const std::optional<KnownStart>& start,
+                                      const FieldMap& field) {
   std::vector<CheckedLog> checked;
   for (const fs::path& log : wish.checks) {
-    const Result<SurveyLogs> drive = read_survey(session, {log}, play);
+    const Result<SurveyLogs> drive = read_survey(session, {log}, play, start);
     if (!drive) return drive.error();
     checked.push_back({log.filename().string(), check_field_map(field, drive->fingerprints)});
   }
@@ -96,8 +108,6 @@ Result<Exit> map_magnetic(const Session& session, const MagneticMapWish& wish) {
   std::vector<fs::path> outputs{wish.output};
   if (wish.picture) outputs.push_back(*wish.picture);
   if (auto error = overwritten_input(outputs, inputs)) return *std::move(error);
-  if (!wish.initial_pose.empty())
-    return Error("--initial-pose is not offered yet; give --pose-topic with the poses of the survey");
   if (auto error = checked_by_itself(wish)) return *std::move(error);
   const Result<io::MapFile> occupancy = io::read_map_file(wish.map);
   if (!occupancy) return occupancy.error();
@@ -106,7 +116,9 @@ Result<Exit> map_magnetic(const Session& session, const MagneticMapWish& wish) {
   if (!calibration) return calibration.error();
   io::PlayOptions play = wish.play;
   play.calibration = *calibration;
-  const Result<SurveyLogs> logs = read_survey(session, wish.logs, play);
+  const Result<std::optional<KnownStart>> start = known_start(wish, occupancy->grid);
+  if (!start) return start.error();
+  const Result<SurveyLogs> logs = read_survey(session, wish.logs, play, *start);
   if (!logs) return logs.error();
   warn(session, logs->warnings);
   const std::string survey = fmt::format("the survey in {}{}", wish.logs.front().string(),
@@ -120,7 +132,7 @@ Result<Exit> map_magnetic(const Session& session, const MagneticMapWish& wish) {
   if (interrupted()) return Error("interrupted; nothing was written");
   field->height_m = logs->magnetometer_height_m;
   field->provenance = provenance(wish);
-  const auto checked = check(session, wish, play, *field);
+  const auto checked = check(session, wish, play, *start, *field);
   if (!checked) return checked.error();
   if (const auto written = io::write_field_map(*field, wish.output); !written) return written.error();
   if (wish.picture) {

@@ -127,6 +127,25 @@ std::string check_text(const CheckedLog& log) {
       check.without_value);
 }
 
+std::string tracks_text(const std::vector<SurveyTrack>& tracks) {
+  std::string text;
+  for (const SurveyTrack& track : tracks)
+    text += fmt::format(
+        "tracked {:.0f} m by {} scans, {:.0f} % of their points on walls; places known to {:.1f} cm (at "
+        "worst "
+        "{:.1f} cm)\n",
+        track.way_m, track.scans, 100 * track.mean_score, 100 * track.typical_sd_m, 100 * track.worst_sd_m);
+  return text;
+}
+
+nlohmann::ordered_json to_json(const SurveyTrack& track) {
+  return {{"way_m", track.way_m},
+          {"scans", track.scans},
+          {"mean_score", track.mean_score},
+          {"typical_sd_m", track.typical_sd_m},
+          {"worst_sd_m", track.worst_sd_m}};
+}
+
 nlohmann::ordered_json to_json(const CheckedLog& log) {
   nlohmann::ordered_json json{{"log", log.name}, {"off_the_map", log.check.without_value}};
   json.update(to_json(log.check.score));
@@ -142,6 +161,7 @@ std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analys
   const Cells cells = count_cells(map);
   std::string text = fmt::format("{} fingerprints from {} field readings, {} outliers dropped\n",
                                  logs.fingerprints.size(), logs.collected.readings, analysis.outliers);
+  text += tracks_text(logs.tracks);
   for (const auto& [what, count] : dropped(logs.collected))
     if (count > 0) text += fmt::format("  {}: {}\n", what, count);
   for (const auto& [what, count] : logs.problems) text += fmt::format("  {}: {}\n", what, count);
@@ -181,6 +201,7 @@ std::string map_report_json(const SurveyLogs& logs, const SurveyAnalysis& analys
                               {"outliers", analysis.outliers}};
   for (const auto& [what, count] : dropped(logs.collected)) json["problems"][what] = count;
   for (const auto& [what, count] : logs.problems) json["problems"][what] = count;
+  for (const SurveyTrack& track : logs.tracks) json["tracked"].push_back(to_json(track));
   json["bias"] = bias_json(analysis);
   json["hyperparameters"] = map.hyperparameters;
   if (analysis.model == FieldModel::kGpr) json["kernel"] = kernel_json(analysis);

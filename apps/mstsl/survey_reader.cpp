@@ -19,32 +19,75 @@ std::optional<std::pair<Stamp, double>> extent(const std::filesystem::path& log)
   return std::pair{*info->first, std::max(*info->last - *info->first, 1e-3)};
 }
 
+/// Hands a collector a log's readings, and the poses of a track between them if there is one.
+class Collecting {
+ public:
+  Collecting(FingerprintCollector& collector, const SurveyTrack* track)
+      : collector_(collector), track_(track) {}
+
+  void observe(const SensorEvent& event) {
+    if (const auto* pose = std::get_if<PoseReading>(&event); pose && track_ == nullptr)
+      collector_.observe(*pose);
+    if (const auto* field = std::get_if<FieldReading>(&event)) {
+      poses_until(field->stamp);
+      collector_.observe(*field);
+    }
+  }
+  void end() {
+    if (track_ != nullptr && !track_->map_T_base.empty()) poses_until(track_->map_T_base.back().stamp);
+  }
+
+ private:
+  void poses_until(Stamp stamp) {
+    if (track_ == nullptr) return;
+    for (; next_ < track_->map_T_base.size() && track_->map_T_base[next_].stamp <= stamp; ++next_)
+      collector_.observe(PoseReading{track_->map_T_base[next_].stamp, track_->map_T_base[next_].pose});
+  }
+
+  FingerprintCollector& collector_;
+  const SurveyTrack* track_;
+  std::size_t next_ = 0;
+};
+
 }  // namespace
 
 Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::filesystem::path>& logs,
-                               const io::PlayOptions& play) {
+                               const io::PlayOptions& play, const std::optional<KnownStart>& start) {
   SurveyLogs survey;
   std::optional<FingerprintCollector> collector;
   Progress progress("reading", session.quiet);
+  io::PlayOptions field_and_poses = play;
+  field_and_poses.topics.scan.clear();
+  field_and_poses.topics.odometry.clear();
   for (std::size_t k = 0; k < logs.size(); ++k) {
     const auto span = extent(logs[k]);
+    const auto show = [&](Stamp at, double from, double to) {
+      const double share = span ? std::clamp((at - span->first) / span->second, 0.0, 1.0) : 0.5;
+      progress.show((static_cast<double>(k) + from + share * (to - from)) / static_cast<double>(logs.size()));
+    };
+    if (start) {
+      Result<SurveyTrack> track = track_survey(logs[k], play, *start, [&](Stamp at) { show(at, 0.0, 0.5); });
+      if (!track) return track.error();
+      survey.tracks.push_back(std::move(track).value());
+    }
+    std::optional<Collecting> collecting;
     const auto on_header = [&](const io::RecordingHeader& header) {
       survey.magnetometer_height_m = header.rig.base_T_magnetometer.translation().z();
       if (collector)
         collector->start_session(header.rig);
       else
         collector.emplace(header.rig);
+      collecting.emplace(*collector, start ? &survey.tracks.back() : nullptr);
     };
     const auto on_event = [&](const SensorEvent& event) {
-      if (const auto* pose = std::get_if<PoseReading>(&event)) collector->observe(*pose);
-      if (const auto* field = std::get_if<FieldReading>(&event)) collector->observe(*field);
-      const double share = span ? std::clamp((stamp_of(event) - span->first) / span->second, 0.0, 1.0) : 0.5;
-      progress.show((static_cast<double>(k) + share) / static_cast<double>(logs.size()));
+      collecting->observe(event);
+      show(stamp_of(event), start ? 0.5 : 0.0, 1.0);
       return !interrupted();
     };
-    const Result<io::PlayReport> played = io::play({logs[k]}, play, on_header, on_event);
+    const Result<io::PlayReport> played = io::play({logs[k]}, field_and_poses, on_header, on_event);
     if (!played) return played.error();
     if (interrupted()) return Error("interrupted; nothing was written");
+    if (collecting) collecting->end();
     for (const auto& [what, count] : played->problems) survey.problems[what] += count;
     for (const std::string& warning : played->warnings) survey.warnings.push_back(warning);
   }

@@ -11,6 +11,7 @@
 #include "mstsl/magnetic/fingerprint_collector.hpp"
 
 #include "session.hpp"
+#include "survey_positions.hpp"
 
 namespace mstsl::app {
 
@@ -21,11 +22,12 @@ struct SurveyLogs {
   std::map<std::string, std::uint64_t> problems;  ///< of reading, by kind
   std::vector<std::string> warnings;
   double magnetometer_height_m = 0.0;
+  std::vector<SurveyTrack> tracks;  ///< of the logs, where they had to be tracked
 };
 
-/// Plays the logs, one session each, and collects their fingerprints. Errors: a log that cannot be read, an
-/// interrupt.
+/// Plays the logs, one session each, and collects their fingerprints; with a start, where they lie is found
+/// by tracking the robot from there. Errors: a log that cannot be read or tracked, an interrupt.
 Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::filesystem::path>& logs,
-                               const io::PlayOptions& play);
+                               const io::PlayOptions& play, const std::optional<KnownStart>& start = {});
 
 }  // namespace mstsl::app

@@ -20,9 +20,10 @@ struct Candidate {
 
 /// 10 to 150 uT in each unit. Where two units overlap they are cut so that the less extreme field is
 /// believed: 0.8 may be 80 uT in gauss (above all the Earth has) or 40 uT normalised; 150 may be 150 uT or,
-/// in milligauss, 15 uT.
+/// in milligauss, 15 uT. Tesla, what the interface promises, has no neighbour: there the field may be as weak
+/// as where steel undoes the Earth's, and as strong as beside a magnet.
 constexpr std::array<Candidate, 6> kCandidates{{
-    {FieldUnit::kTesla, "tesla", 1e6, 10e-6, 150e-6},
+    {FieldUnit::kTesla, "tesla", 1e6, 2e-6, 1000e-6},
     {FieldUnit::kMicrotesla, "microtesla", 1.0, 10.0, 150.0},
     {FieldUnit::kNanotesla, "nanotesla", 1e-3, 10e3, 150e3},
     {FieldUnit::kGauss, "gauss", 100.0, 0.1, 0.8},

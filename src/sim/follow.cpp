@@ -99,6 +99,9 @@ class Driver {
     turn(angle_between(pose_.yaw, target_heading(stretch, 0.0)));
     double along_m = 0.0, speed = 0.0;
     while (true) {
+      // After cut corners the robot may be further on than it counted: the point it heads for is in front of
+      // it.
+      while (along_m < whole_m && too_near(stretch, along_m)) along_m += kArrived_m;
       // How much is left is measured along the last leg near the end, by the driven length before.
       const double to_end_m =
           whole_m - along_m < kLookahead_m ? -(inverse(last) * pose_.position()).x() : whole_m - along_m;
@@ -123,9 +126,14 @@ class Driver {
   }
 
  private:
+  Vector2d target(const Stretch& stretch, double along_m) const {
+    return stretch.at(along_m + kLookahead_m) * Vector2d(0.0, wander_m_);
+  }
   double target_heading(const Stretch& stretch, double along_m) const {
-    const Pose2 ahead = stretch.at(along_m + kLookahead_m);
-    return heading(pose_.position(), ahead * Vector2d(0.0, wander_m_));
+    return heading(pose_.position(), target(stretch, along_m));
+  }
+  bool too_near(const Stretch& stretch, double along_m) const {
+    return (target(stretch, along_m) - pose_.position()).norm() < 0.4 * kLookahead_m;
   }
 
   /// A first-order Gauss-Markov process over the distance driven.

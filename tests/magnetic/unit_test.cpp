@@ -39,7 +39,7 @@ TEST(FieldUnit, IsFoundForTheStrengthsOfBuildings) {
                                  FieldUnit::kGauss, FieldUnit::kMilligauss})
       EXPECT_EQ(must(detect_unit(norms_around(strength_uT / microtesla_per(unit), random))), unit)
           << strength_uT;
-  for (double strength_uT = 11.0; strength_uT <= 140.0; strength_uT += 1.0)
+  for (double strength_uT = 3.0; strength_uT <= 900.0; strength_uT += 1.0)
     EXPECT_EQ(must(detect_unit(norms_around(strength_uT * 1e-6, random))), FieldUnit::kTesla) << strength_uT;
 }
 
@@ -58,7 +58,7 @@ TEST(FieldUnit, AFewBadReadingsDoNotMatter) {
 TEST(FieldUnit, IsRefusedWhereNoneFits) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const std::vector<double>& norms : std::vector<std::vector<double>>{
-           {}, {nan, nan}, {0.0, 0.0, 0.0}, {1e-9}, {3e-6}, {0.01}, {5.0}, {5000.0}, {1e9}})
+           {}, {nan, nan}, {0.0, 0.0, 0.0}, {1e-9}, {5e-7}, {0.01}, {5.0}, {5000.0}, {1e9}})
     EXPECT_FALSE(detect_unit(norms).ok());
 }
 

@@ -36,6 +36,25 @@ TEST(Follow, KeepsToTheRouteAndArrives) {
   EXPECT_NEAR(length(t), length(kCorner), 0.03 * length(kCorner));
 }
 
+TEST(Follow, ArrivesHoweverItWandersAndCutsCorners) {
+  // Four cut corners: what was driven falls behind what was gained, until the point ahead was underfoot.
+  const Route loop{0.0,
+                   {{-9.85, 11.05},
+                    {-9.35, 11.55},
+                    {20.55, 11.55},
+                    {23.65, 11.55},
+                    {24.35, 10.85},
+                    {24.35, -10.85},
+                    {23.65, -11.55},
+                    {11.85, -11.55},
+                    {11.2, -11.05}}};
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Trajectory t = follow(loop, {}, {}, Random(seed));
+    EXPECT_LT(length(t), 1.1 * length(loop));
+    EXPECT_LT((t.poses.back().position() - loop.waypoints_m.back()).norm(), 0.3);
+  }
+}
+
 TEST(Follow, RespectsTheLimits) {
   MotionOptions motion;
   const Trajectory t = follow(kCorner, motion, {}, Random(2));

@@ -18,8 +18,9 @@ std::string_view to_string(FieldUnit unit);
 double microtesla_per(FieldUnit unit);
 
 /// The unit in which readings of these norms would be a field found in a building: 10 to 150 uT, the Earth's
-/// 22 to 67 uT bent by steel. Judges by the median, so that a few bad readings do no harm; norms that are not
-/// finite are passed over. Errors: no finite norm, or no unit fits.
+/// 22 to 67 uT bent by steel (in tesla, as the interface promises, 2 to 1000 uT). Judges by the median, so
+/// that a few bad readings do no harm; norms that are not finite are passed over. Errors: no finite norm, or
+/// no unit fits.
 Result<FieldUnit> detect_unit(std::span<const double> norms);
 
 }  // namespace mstsl

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -10,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "mstsl/grid/occupancy_grid.hpp"
+#include "mstsl/scan/fit_around.hpp"
 
 namespace mstsl::joint {
 namespace {
@@ -65,14 +65,6 @@ double standing(const OccupancyGrid& occupancy, const Pose2& pose) {
 }
 
 }  // namespace
-
-Eigen::Matrix3d MotionNoise::covariance(const Pose2& motion) const {
-  const double way_m = std::hypot(motion.x, motion.y), turn_rad = std::abs(motion.yaw);
-  const double place_m2 = square(m_per_root_m) * way_m + square(floor_m);
-  const double yaw_rad2 =
-      square(rad_per_root_m) * way_m + square(rad_per_root_rad) * turn_rad + square(floor_rad);
-  return Eigen::Vector3d(place_m2, place_m2, yaw_rad2).asDiagonal();
-}
 
 ModeBank::ModeBank(std::shared_ptr<const Maps> maps, const Eigen::Vector2d& magnetometer_m,
                    const BankOptions& options)
@@ -135,26 +127,13 @@ std::vector<double> ModeBank::fit_all(const PointSet& points) {
 }
 
 void ModeBank::search_around(Mode& mode, double& score, const PointSet& points) const {
-  // Steps that a fit reaches across: it finds a wall from 0.2 m and a turn from 3 deg.
-  constexpr double kStep_m = 0.25, kStep_rad = 0.06;
-  constexpr int kTurns = 4;
-  const Eigen::Vector3d variances(square(kStep_m / 2), square(kStep_m / 2), square(kStep_rad / 2));
-  const Eigen::Matrix3d spread = variances.asDiagonal();
-  std::optional<WallFit> best;
-  for (int turn = -kTurns; turn <= kTurns; ++turn) {
-    for (const Eigen::Vector2d& off :
-         {Eigen::Vector2d(0, 0), Eigen::Vector2d(kStep_m, 0), Eigen::Vector2d(-kStep_m, 0),
-          Eigen::Vector2d(0, kStep_m), Eigen::Vector2d(0, -kStep_m)}) {
-      const Pose2 from = mode.map_T_base * Pose2{off.x(), off.y(), turn * kStep_rad};
-      const WallFit fit = fit_to_walls(*maps_->walls, points, {from, spread}, options_.fit);
-      if (!best || fit.score > best->score) best = fit;
-    }
-  }
-  const double found = best->score * standing(maps_->both->walls.occupancy, best->map_T_base);
+  const Surroundings around;
+  const WallFit best = fit_around(*maps_->walls, points, mode.map_T_base, around, options_.fit);
+  const double found = best.score * standing(maps_->both->walls.occupancy, best.map_T_base);
   if (found < score + options_.search_gain) return;
   score = found;
-  reseat(mode, *best, spread, 1.0);
-  update_by_scan(mode, *best);
+  reseat(mode, best, around.spread(), 1.0);
+  update_by_scan(mode, best);
 }
 
 void ModeBank::weigh_by_scan(const PointSet& points_base_m) {

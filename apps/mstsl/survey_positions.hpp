@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "mstsl/core/pose2.hpp"
+#include "mstsl/core/result.hpp"
+#include "mstsl/io/recording.hpp"
+#include "mstsl/mapping/survey_tracker.hpp"
+
+namespace mstsl::app {
+
+/// Where each log of a survey begins, on a map that is known.
+struct KnownStart {
+  std::shared_ptr<const WallField> walls;
+  Pose2 map_T_base;
+};
+
+/// X,Y,YAW in m and rad.
+Result<Pose2> pose_from(const std::string& text);
+
+/// Where the robot was during a log, from its scans and odometry. `at` is told how far it is.
+Result<SurveyTrack> track_survey(const std::filesystem::path& log, const io::PlayOptions& play,
+                                 const KnownStart& start, const std::function<void(Stamp)>& at);
+
+}  // namespace mstsl::app
