@@ -1,8 +1,12 @@
 #include <filesystem>
 #include <string>
+#include <variant>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "mstsl/io/recording.hpp"
 
 #include "run_app.hpp"
 #include "test_support.hpp"
@@ -69,6 +73,54 @@ TEST(MapMagnetic, ADriveOfTheSurveyDoesNotCheckItself) {
   EXPECT_EQ(made.exit_status, 1);
   EXPECT_TRUE(made.says("give --check another drive")) << made.text;
   EXPECT_FALSE(run_app(site.map(log + " --check " + site.path("absent.mcap"))).exit_status == 0);
+}
+
+/// Where the robot was when a log began.
+std::string first_pose(const std::string& log) {
+  std::string text;
+  const auto played = io::play(
+      {log}, {.topics = {.pose = "/ground_truth"}}, [](const io::RecordingHeader&) {},
+      [&](const SensorEvent& event) {
+        if (const auto* pose = std::get_if<PoseReading>(&event)) {
+          const Pose2& p = pose->map_T_base;
+          text = fmt::format("{:.2f},{:.2f},{:.2f}", p.x + 0.3, p.y - 0.2, p.yaw + 0.1);  // as one clicks
+        }
+        return text.empty();
+      });
+  EXPECT_TRUE(played.ok());
+  return text;
+}
+
+TEST(MapMagnetic, AnInitialPoseIsAsGoodAsTruePoses) {
+  TemporaryFolder folder;
+  const std::string out = folder.path().string(), log = out + "/survey_00.mcap";
+  const Printed made = run_app(
+      "simulate --world corridor --size 30,16 --lane-spacing 3 --survey-scan-hz 5 --runs 0 --quiet -o " +
+      out);
+  ASSERT_EQ(made.exit_status, 0) << made.text;
+  const auto report_of = [&](const std::string& poses) {
+    const Printed mapped = run_app("map magnetic --map " + out + "/map.yaml " + poses +
+                                   " --kernel se --resolution 0.2 --json -o " + out + "/field.nc " + log);
+    EXPECT_EQ(mapped.exit_status, 0) << mapped.text;
+    return nlohmann::json::parse(mapped.text.substr(mapped.text.find('{')));
+  };
+  const auto known = report_of("--pose-topic /ground_truth"),
+             tracked = report_of("--initial-pose=" + first_pose(log));
+  ASSERT_EQ(tracked.at("tracked").size(), 1U);
+  EXPECT_LT(tracked.at("tracked")[0].at("typical_sd_m").get<double>(), 0.05);
+  EXPECT_GT(tracked.at("tracked")[0].at("mean_score").get<double>(), 0.8);
+  EXPECT_FALSE(known.contains("tracked"));
+  EXPECT_NEAR(tracked.at("fingerprints").get<double>() / known.at("fingerprints").get<double>(), 1.0, 0.02);
+}
+
+TEST(MapMagnetic, AnInitialPoseIsThreeNumbers) {
+  const Surveyed& site = Surveyed::get();
+  for (const char* text : {"1,2", "1,2,3,4", "a,b,c", "1,2,nan", "1,2,3x"}) {
+    const Printed made = run_app("map magnetic --map " + site.path("map.yaml") + " --initial-pose=" + text +
+                                 " -o " + site.path("f.nc") + " " + site.path("survey_00.mcap"));
+    EXPECT_EQ(made.exit_status, 1) << text;
+    EXPECT_TRUE(made.says("give X,Y,YAW")) << made.text;
+  }
 }
 
 }  // namespace
