@@ -95,7 +95,11 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
                        const Eigen::Vector2d& magnetometer_m, const FieldModel& model) {
   const Expected e = expect(mode, station, field, magnetometer_m, model);
   const Eigen::Matrix3d base_R_map = e.by_state.block<3, 3>(0, kMapError);
-  const Eigen::Vector3d own_uT2 = model.error_own_share * e.error_variance_uT2;
+  // Where the map is worse than it claims, its error is larger and has to be followed; where it is better,
+  // the claim stands, and only what it expects of a station is less.
+  const double worse = std::max(1.0, mode.scale.factor()), better = std::min(1.0, mode.scale.factor());
+  const Eigen::Vector3d error_uT2 = worse * e.error_variance_uT2;
+  const Eigen::Vector3d own_uT2 = model.error_own_share * error_uT2;
   const Eigen::Matrix3d noise =
       (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity() +
       base_R_map * own_uT2.asDiagonal() * base_R_map.transpose();
@@ -103,7 +107,7 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   // Where the map is good its error wanders on; where steel was moved it is anything, and goes on from there.
   Mode mapped = mode, changed = mode;
   let_wander(mapped.state, mapped.covariance, station.since_last_m, model.error_length_m,
-             (1.0 - model.error_own_share) * e.error_variance_uT2);
+             (1.0 - model.error_own_share) * error_uT2);
   const Eigen::Vector3d anything = field.spread_uT().cwiseAbs2() + e.error_variance_uT2;
   if (mode.changed > 0.5)
     let_wander(changed.state, changed.covariance, station.since_last_m, field.length_m(), anything);
@@ -120,7 +124,7 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   const double begins = 1.0 - std::exp(-way_m / model.change_every_m),
                lasts = std::exp(-way_m / model.change_length_m);
   const double chance = mode.changed * lasts + (1.0 - mode.changed) * begins;
-  const double if_mapped = std::log1p(-chance) + as_mapped.log_density(mode.scale.factor());
+  const double if_mapped = std::log1p(-chance) + as_mapped.log_density(better);
   const double if_changed = std::log(chance) + as_changed.log_density();
   const double more = std::max(if_mapped, if_changed), less = std::min(if_mapped, if_changed);
   const double log_density = more + std::log1p(std::exp(less - more));
@@ -128,7 +132,7 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   shift_pose(likelier,
              correct(likelier.covariance, e.by_state, if_changed > if_mapped ? as_changed : as_mapped));
   likelier.changed = std::exp(if_changed - log_density);
-  likelier.scale.learn(if_changed > if_mapped ? 3.0 : as_mapped.squared, way_m, model.scale_length_m);
+  likelier.scale.learn(if_changed > if_mapped ? 3.0 : worse * as_mapped.squared, way_m, model.scale_length_m);
   mode = likelier;
   return log_density;
 }
