@@ -145,11 +145,12 @@ TEST(Surprise, OfVariancesThatAreAllWrongByAFactor) {
 }
 
 /// Twenty stations that are off a map by a hundredth of a microtesla, at a place whose map claims `sd_uT`.
-double log_density_on_a_map_of(double sd_uT) {
+double log_density_on_a_map_of(double sd_uT, double scale_length_m) {
   const test::HandMadeWorld world;
   const Pose2 start{4, 1, 0};
   FieldModel model;
   model.map_error_floor_uT = sd_uT;
+  model.scale_length_m = scale_length_m;
   Mode mode = make_mode(start, diagonal(0.02, 0.01), model);
   double sum = 0;
   for (int i = 0; i < 40; ++i) {
@@ -162,8 +163,24 @@ double log_density_on_a_map_of(double sd_uT) {
 }
 
 TEST(Mode, IsNotRuledOutForAModestMapThatFits) {
-  // At three times the standard deviation a fixed scale costs 3.3 nats a station.
-  EXPECT_LT(log_density_on_a_map_of(1.0) - log_density_on_a_map_of(3.0), 20 * 2.2);
+  const double kForgetsAtOnce_m = 1e-3;
+  EXPECT_GT(log_density_on_a_map_of(3.0, 1.0), log_density_on_a_map_of(3.0, kForgetsAtOnce_m) + 20 * 1.0);
+}
+
+TEST(Mode, FollowsAMapThatIsWorseThanItClaims) {
+  // 3 uT off all of a sudden, on a map that claims 1 uT: after half a metre that is no news any more.
+  const test::HandMadeWorld world;
+  const Pose2 start{4, 1, 0};
+  Mode mode = make_mode(start, diagonal(0.02, 0.01), {.bias_sigma_uT = 0.5, .motor_sigma_uT = 0.5});
+  double first = 0, later = 0;
+  for (int i = 0; i < 24; ++i) {
+    const Eigen::Vector3d off = i < 12 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(3, -3, 3);
+    Station station = station_at(world, start * Pose2{0.12 * i, 0, 0}, off);
+    if (i > 0) station.since_last_m = 0.12, predict(mode, {0.12, 0, 0}, diagonal(0.003, 0.002), 0);
+    const double log_density = update_by_field(mode, station, world.maps->field_cells, {0, 0}, {});
+    (i == 12 ? first : later) = log_density;
+  }
+  EXPECT_GT(later, first + 3.0);
 }
 
 TEST(Mode, TakesFromAScanOnlyWhatItFixes) {
