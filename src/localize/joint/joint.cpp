@@ -65,6 +65,7 @@ void Joint::observe(const FieldReading& field) {
     ++counts_.bad_field;
     return;
   }
+  watch_for_dark(field.stamp);
   last_field_ = field.stamp;
   waiting_.push_back(field);
   // Odometry that comes later than this does not come: the drive goes on without these readings.
@@ -106,6 +107,7 @@ void Joint::observe(const LaserScan& scan) {
     ++counts_.late_scans;
     return;
   }
+  watch_for_dark(scan.stamp);
   last_scan_ = scan.stamp;
   const std::optional<Pose2> track_T_base = track_.at(scan.stamp);
   if (!track_T_base) {
@@ -121,6 +123,18 @@ void Joint::observe(const LaserScan& scan) {
   travelled_m_ = track_.travelled_m();
 }
 
+void Joint::watch_for_dark(Stamp now) {
+  // Two seconds, and ten times what is usual: a lidar of 1 Hz alone is no darkness.
+  constexpr double kDark_s = 2.0, kUsual = 10.0, kForget = 0.02;
+  const std::optional<Stamp> last = std::max(last_scan_, last_field_);
+  if (!last) return;
+  const double gap_s = now - *last;
+  if (gap_s > std::max(kDark_s, kUsual * usual_gap_s_))
+    after_dark_ = true;
+  else
+    usual_gap_s_ += kForget * (std::max(gap_s, 0.0) - usual_gap_s_);
+}
+
 bool Joint::worth_processing(Stamp stamp, const Pose2& track_T_base) const {
   if (!processed_) return true;
   return distance(processed_->pose, track_T_base) >= options_.process_every_m ||
@@ -133,7 +147,8 @@ joint::Step Joint::make_step(Stamp stamp, const Pose2& track_T_base) {
   step.stamp = stamp;
   step.last_T_base = last_step_ ? between(last_step_->pose, track_T_base) : Pose2{};
   step.broken = last_step_ && track_.breaks() != breaks_at_last_step_;
-  if (step.broken) stations_.interrupt();
+  step.after_dark = std::exchange(after_dark_, false);
+  if (step.broken || step.after_dark) stations_.interrupt();
   step.stations = stations_.take(track_T_base);
   return step;
 }

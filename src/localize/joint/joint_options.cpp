@@ -29,6 +29,7 @@ std::optional<Error> not_positive(const JointOptions& o) {
                                     {"field.change_length_m", field.change_length_m},
                                     {"field.scale_length_m", field.scale_length_m},
                                     {"scan.new_after_m", o.bank.scan.new_after_m},
+                                    {"scan.sudden_after_m", o.bank.scan.sudden_after_m},
                                     {"scan.sigma_m", o.bank.scan.sigma_m},
                                     {"lost_every_m", o.bank.lost_every_m}})
     if (!(value > 0.0)) return Error(fmt::format("{} is {}; it must be more than 0", name, value));
@@ -41,6 +42,7 @@ std::optional<Error> no_share(const JointOptions& o) {
                                     {"field_temper", o.bank.field_temper},
                                     {"field.error_own_share", o.bank.field.error_own_share},
                                     {"elsewhere_prior", o.bank.elsewhere_prior},
+                                    {"carried_in_the_dark", o.bank.carried_in_the_dark},
                                     {"scan.tolerance", o.bank.scan.tolerance},
                                     {"scan.elsewhere_score", o.bank.scan.elsewhere_score}})
     if (!(value > 0.0 && value < 1.0))

@@ -47,6 +47,7 @@ Mode merged_modes(const Mode& a, const Mode& b) {
   both.log_weight = a.log_weight - std::log1p(-share_b);
   both.scale.weight = (1 - share_b) * a.scale.weight + share_b * b.scale.weight;
   both.scale.squares = (1 - share_b) * a.scale.squares + share_b * b.scale.squares;
+  both.scan_account = (1 - share_b) * a.scan_account + share_b * b.scan_account;
   both.changed = (1 - share_b) * a.changed + share_b * b.changed;
   return both;
 }
@@ -80,7 +81,7 @@ void ModeBank::advance(const Step& step) {
   move(step);
   weigh_by_field(step.stations);
   weigh_by_scan(step.points_base_m);
-  leak(std::hypot(step.last_T_base.x, step.last_T_base.y));
+  leak(step);
   normalise();
   if (since_merge_m_ >= options_.fit_every_m) merge();
   drop();
@@ -148,18 +149,28 @@ void ModeBank::weigh_by_scan(const PointSet& points_base_m) {
   double reference = options_.scan.elsewhere_score;
   for (std::size_t i = 0; i < modes_.size(); ++i)
     if (modes_[i].log_weight > modes_.front().log_weight - 10.0) reference = std::max(reference, scores[i]);
-  const double credit = options_.scan.log_odds * std::min(1.0, since_evidence_m_ / options_.scan.new_after_m);
+  // What one place shows counts once, however many scans show it; of a place that is left, room is made for
+  // new evidence in the same measure.
+  const double renewed = std::min(1.0, since_evidence_m_ / options_.scan.new_after_m),
+               told = std::min(1.0, since_evidence_m_ / options_.scan.sudden_after_m);
   since_evidence_m_ = 0.0;
-  const auto evidence = [&](double score) {
-    return -credit * std::max(0.0, reference - score - options_.scan.tolerance);
+  const auto evidence = [&](double score, double& account) {
+    const double whole = -options_.scan.log_odds * std::max(0.0, reference - score - options_.scan.tolerance);
+    account *= 1.0 - renewed;
+    const double news = told * (whole - account);
+    account += news;
+    return news;
   };
-  for (std::size_t i = 0; i < modes_.size(); ++i) modes_[i].log_weight += evidence(scores[i]);
-  log_elsewhere_ += evidence(options_.scan.elsewhere_score);
+  for (std::size_t i = 0; i < modes_.size(); ++i)
+    modes_[i].log_weight += evidence(scores[i], modes_[i].scan_account);
+  log_elsewhere_ += evidence(options_.scan.elsewhere_score, elsewhere_account_);
   best_score_ = scores.front();
 }
 
-void ModeBank::leak(double moved_m) {
-  const double chance = 1.0 - std::exp(-moved_m / options_.lost_every_m);
+void ModeBank::leak(const Step& step) {
+  const double moved_m = std::hypot(step.last_T_base.x, step.last_T_base.y);
+  const double carried = step.broken || step.after_dark ? options_.carried_in_the_dark : 0.0;
+  const double chance = 1.0 - (1.0 - carried) * std::exp(-moved_m / options_.lost_every_m);
   if (modes_.empty() || !(chance > 0)) return;
   normalise();
   const double share = std::exp(log_elsewhere_);

@@ -65,6 +65,7 @@ class Joint {
   };
   /// Readings wait for the odometry around them, but no longer than until the next scan is processed.
   void take_waiting(bool now);
+  void watch_for_dark(Stamp now);
   bool worth_processing(Stamp stamp, const Pose2& track_T_base) const;
   joint::Step make_step(Stamp stamp, const Pose2& track_T_base);
   PointSet points_of(const LaserScan& scan, const Pose2& track_T_base);
@@ -82,6 +83,8 @@ class Joint {
   joint::ModeBank bank_;
   Counts counts_;
   std::optional<Stamp> last_scan_, last_field_;
+  double usual_gap_s_ = 0.1;            ///< between readings of any sensor but odometry
+  bool after_dark_ = false;             ///< neither scan nor field came for a while
   std::optional<TimedPose> processed_;  ///< the last scan that was worth a step
   std::optional<TimedPose> last_step_;
   std::uint64_t breaks_at_last_step_ = 0;

@@ -20,6 +20,9 @@ struct ScanEvidence {
   double log_odds = 40.0;
   /// A scan this far (m) from the last shows a new place: half the view of a corridor with doors.
   double new_after_m = 3.0;
+  /// A mode whose scans fit no more, all of a sudden, is told so within this way (m): it is elsewhere, or
+  /// somebody stands before the laser and will be gone.
+  double sudden_after_m = 0.5;
   /// Differences in score up to this are the map's errors: they do not tell copies of a place apart.
   double tolerance = 0.06;
   /// What a scan scores at a place that is not on the map or was rebuilt.
@@ -38,6 +41,8 @@ struct BankOptions {
   double field_temper = 0.35;
   /// How often, one in so many metres, the robot is carried off or something happens that no mode knows.
   double lost_every_m = 20'000.0;
+  /// Probability that it was carried off while neither scan nor field came, or odometry began anew.
+  double carried_in_the_dark = 0.02;
   /// "None of these" before anything is known.
   double elsewhere_prior = 0.02;
   /// Modes this improbable (natural log) against the best are dropped, once their number hurts.
@@ -83,7 +88,7 @@ class ModeBank {
   void weigh_by_scan(const PointSet& points_base_m);
   std::vector<double> fit_all(const PointSet& points_base_m);
   void search_around(Mode& mode, double& score, const PointSet& points_base_m) const;
-  void leak(double moved_m);
+  void leak(const Step& step);
   void normalise();
   void merge();
   void drop();
@@ -94,6 +99,7 @@ class ModeBank {
   std::vector<Mode> modes_;
   Elsewhere elsewhere_;
   double log_elsewhere_ = 0.0;
+  double elsewhere_account_ = 0.0;  ///< as Mode::scan_account
   double best_score_ = 0.0;
   double since_fit_m_ = 0.0, since_fit_rad_ = 0.0;
   double since_evidence_m_;

@@ -24,8 +24,9 @@ struct Station {
 /// What came in between two scans that are worth a step, ready for every hypothesis.
 struct Step {
   Stamp stamp;
-  Pose2 last_T_base;    ///< motion since the last step, by odometry
-  bool broken = false;  ///< odometry was interrupted: the motion is not known
+  Pose2 last_T_base;        ///< motion since the last step, by odometry
+  bool broken = false;      ///< odometry was interrupted: the motion is not known
+  bool after_dark = false;  ///< neither scan nor field came for a while: the robot may have been carried
   std::vector<Station> stations;
   PointSet points_base_m;  ///< of the scan; empty where it tells nothing
 };
