@@ -117,8 +117,8 @@ def field_table():
 def hard_table():
     """Both seeds by world and disturbance, the whole of each first."""
     rows = []
-    for name, report in reports("hard").items():
-        for row in report["rows"]:
+    for report in reports("hard").values():
+        for row in report["rows"] if report["set"] == "fix" else []:
             if "*" in (row["world"], row["disturbance"]) and row["world"] + row["disturbance"] != "**":
                 continue
             wrong, distance, error = row["first_wrong_at_0.999"], row["correct_distance_m"], row["error_after_fix_m"]
@@ -130,8 +130,26 @@ def hard_table():
                   "CLD median, 95 %", "error after the fix"], rows)
 
 
+def kidnap_table():
+    rows = []
+    for report in reports("hard").values():
+        for row in report["rows"] if report["set"] == "kidnap" else []:
+            if row["disturbance"] == "*":
+                continue
+            kidnap = row["kidnap"]
+            rows.append([str(report["seed"]), row["world"].replace("*", "all"), str(row["runs"]),
+                         rate([kidnap["noticed_within_3_m"]]),
+                         f"{kidnap['noticed_m']['median']:.1f}, {kidnap['noticed_m']['p95']:.1f} m",
+                         rate([kidnap["recovered_within_10_m"]]),
+                         f"{kidnap['recovered_m']['median']:.1f}, {kidnap['recovered_m']['p95']:.1f} m",
+                         rate([kidnap["wrong_after_notice"]]),
+                         f"{row['false_alarms']} in {row['right_km']:.1f} km"])
+    return table(["seed", "world", "runs", "noticed within 3 m", "median, 95 %", "found again within 10 m", "median, 95 %",
+                  "wrong pose in between", "false alarms"], rows)
+
+
 TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
-          "hard": hard_table}
+          "hard": hard_table, "kidnap": kidnap_table}
 
 
 def main():

@@ -9,8 +9,6 @@ namespace {
 
 constexpr int kMean = kPose;
 
-double square(double x) { return x * x; }
-
 }  // namespace
 
 Elsewhere::Elsewhere(const FieldSampler& field, const FieldModel& model)

@@ -96,7 +96,8 @@ void Joint::take_waiting(bool now) {
 void Joint::advance(const joint::Step& step, const Pose2& track_T_base) {
   counts_.stations += step.stations.size();
   bank_.advance(step);
-  search_if_due(step);
+  remember(step, track_T_base);
+  search_if_due(step, track_T_base);
   judge(step.last_T_base);
   last_step_ = {step.stamp, track_T_base};
   breaks_at_last_step_ = track_.breaks();
@@ -162,16 +163,47 @@ PointSet Joint::points_of(const LaserScan& scan, const Pose2& track_T_base) {
   return {};
 }
 
-void Joint::search_if_due(const joint::Step& step) {
-  if (step.points_base_m.empty() || bank_.elsewhere_share() < options_.search_above ||
+void Joint::search_if_due(const joint::Step& step, const Pose2& track_T_base) {
+  if (bank_.elsewhere_share() < options_.search_above ||
       track_.travelled_m() - searched_at_m_ < options_.search_every_m)
     return;
+  if (!search_by_scan(step)) search_by_field(track_T_base);
+}
+
+bool Joint::search_by_scan(const joint::Step& step) {
+  if (step.points_base_m.empty()) return false;
   const FoundPlaces found = maps_->places.find(step.points_base_m, options_.bank.threads);
-  if (!found.informative || found.fits.empty()) return;
+  if (!found.informative || found.fits.empty()) return false;
   ++counts_.searches;
   if (!found.complete) ++counts_.cut_searches;
   searched_at_m_ = track_.travelled_m();
   bank_.add(found.fits);
+  return true;
+}
+
+void Joint::search_by_field(const Pose2& track_T_base) {
+  if (passed_.empty() || track_.travelled_m() - passed_.front().travelled_m < options_.field_search_least_m)
+    return;
+  std::vector<joint::Station> way;
+  for (const Passed& passed : passed_) {
+    way.push_back(passed.station);
+    way.back().base_T_then = between(track_T_base, passed.track_T_base);
+  }
+  ++counts_.field_searches;
+  searched_at_m_ = track_.travelled_m();
+  bank_.add(
+      maps_->by_field.find(way, maps_->both->field_cells, rig_.base_T_magnetometer.translation().head<2>(),
+                           options_.bank.field, options_.bank.threads),
+      options_.field_search.step_m, options_.field_search.turn_rad);
+}
+
+void Joint::remember(const joint::Step& step, const Pose2& track_T_base) {
+  if (step.broken) passed_.clear();
+  for (const joint::Station& station : step.stations)
+    passed_.push_back({track_T_base * station.base_T_then, track_.travelled_m(), station});
+  while (!passed_.empty() &&
+         track_.travelled_m() - passed_.front().travelled_m > options_.field_search_most_m)
+    passed_.pop_front();
 }
 
 double Joint::probability_near(const Pose2& map_T_base) const {

@@ -17,11 +17,12 @@ LocalizerReport Joint::report() const {
   note("field stations", counts_.stations);
   note("searches", counts_.searches);
   note("searches cut short", counts_.cut_searches);
+  note("searches by the field alone", counts_.field_searches);
   note("times lost", counts_.times_lost);
   if (counts_.stations == 0 && track_.travelled_m() > 1.0)
     report.warnings.emplace_back(
         "no usable field reading was seen: the walls alone cannot tell places apart that look alike");
-  if (counts_.searches == 0 && processed_)
+  if (counts_.searches + counts_.field_searches == 0 && processed_)
     report.warnings.emplace_back(
         "no place was found where a scan fits the map: check the map, the laser's mounting in /tf_static and "
         "that the scans have returns");

@@ -13,6 +13,8 @@ namespace mstsl::joint {
 
 using Observation = Eigen::Matrix<double, 3, kStates>;
 
+inline double square(double x) { return x * x; }
+
 inline Eigen::Matrix3d about_z(double yaw_rad) {
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
   Eigen::Matrix3d r;

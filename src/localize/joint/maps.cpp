@@ -8,7 +8,9 @@ std::shared_ptr<const Maps> make_maps(std::shared_ptr<const LocalizationMaps> bo
                                       const PlaceSearchOptions& options) {
   auto walls = std::make_shared<const WallField>(both->walls.occupancy);
   PlaceSearch places(both->walls.occupancy, walls, options);
-  return std::make_shared<const Maps>(Maps{std::move(both), std::move(walls), std::move(places)});
+  FieldSearch by_field(both->walls.occupancy);
+  return std::make_shared<const Maps>(
+      Maps{std::move(both), std::move(walls), std::move(places), std::move(by_field)});
 }
 
 }  // namespace mstsl::joint

@@ -13,8 +13,6 @@ namespace mstsl::joint {
 namespace {
 
 Eigen::Vector3d constant(double value) { return Eigen::Vector3d::Constant(value); }
-double square(double x) { return x * x; }
-
 void shift_pose(Mode& mode, Vector change) {
   mode.map_T_base =
       Pose2::from(mode.map_T_base.position() + change.head<2>(), mode.map_T_base.yaw + change(2));

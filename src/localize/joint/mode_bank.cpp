@@ -234,14 +234,29 @@ void ModeBank::drop() {
 }
 
 void ModeBank::add(const std::vector<WallFit>& places) {
-  if (places.empty()) return;
-  const double share = modes_.empty() ? 1.0 - options_.elsewhere_prior : 0.9;
-  const double log_each = log_elsewhere_ + std::log(share / static_cast<double>(places.size()));
+  // Half a cell of the search's lattice, before the scan's own say.
+  const Eigen::Matrix3d spread = Eigen::Vector3d(0.15 * 0.15, 0.15 * 0.15, 0.04 * 0.04).asDiagonal();
+  std::vector<Mode> modes;
   for (const WallFit& place : places) {
-    // Half a cell of the search's lattice, before the scan's own say.
-    Eigen::Matrix3d spread = Eigen::Vector3d(0.15 * 0.15, 0.15 * 0.15, 0.04 * 0.04).asDiagonal();
-    Mode mode = make_mode(place.map_T_base, spread, options_.field);
-    update_by_scan(mode, place);
+    modes.push_back(make_mode(place.map_T_base, spread, options_.field));
+    update_by_scan(modes.back(), place);
+  }
+  add_modes(std::move(modes));
+}
+
+void ModeBank::add(const std::vector<Pose2>& places, double step_m, double turn_rad) {
+  const Eigen::Vector3d half(0.5 * step_m, 0.5 * step_m, 0.5 * turn_rad);
+  std::vector<Mode> modes;
+  for (const Pose2& place : places)
+    modes.push_back(make_mode(place, half.cwiseAbs2().asDiagonal(), options_.field));
+  add_modes(std::move(modes));
+}
+
+void ModeBank::add_modes(std::vector<Mode> modes) {
+  if (modes.empty()) return;
+  const double share = modes_.empty() ? 1.0 - options_.elsewhere_prior : 0.9;
+  const double log_each = log_elsewhere_ + std::log(share / static_cast<double>(modes.size()));
+  for (Mode& mode : modes) {
     mode.log_weight = log_each;
     modes_.push_back(mode);
   }

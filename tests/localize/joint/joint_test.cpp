@@ -1,6 +1,8 @@
 #include "mstsl/localize/joint/joint.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -145,6 +147,19 @@ TEST_F(JointTest, WaitsForOdometryThatComesSeldom) {
   ASSERT_FALSE(estimates.empty());
   ASSERT_TRUE(estimates.back().map_T_base);
   EXPECT_GT(localizer.report().counts.at("field stations"), 40u);
+}
+
+TEST_F(JointTest, FindsItselfByTheFieldAloneWhereTheLidarSeesNothing) {
+  auto events = biased(test::events_of(world, eastwards(), rig), {3, -2, 2});
+  for (SensorEvent& event : events)
+    if (auto* scan = std::get_if<LaserScan>(&event))
+      std::ranges::fill(scan->ranges_m, std::numeric_limits<float>::infinity());
+  Joint localizer(maps, rig);
+  const auto estimates = run(localizer, events);
+  const Pose2 truth = test::driven(eastwards()).back().pose;
+  ASSERT_TRUE(estimates.back().map_T_base);
+  EXPECT_LT(distance(*estimates.back().map_T_base, truth), 0.3);
+  EXPECT_GT(localizer.report().counts.at("searches by the field alone"), 0u);
 }
 
 TEST_F(JointTest, DoesNotHoardReadingsForOdometryThatNeverComes) {

@@ -28,6 +28,11 @@ struct JointOptions {
   double search_above = 0.3;
   /// ... but not more often than this (m): the new ones need a way to prove themselves.
   double search_every_m = 1.0;
+  /// Where the lidar tells nothing, the field is searched for the last metres of the way: at least and at
+  /// most so many.
+  double field_search_least_m = 2.0;
+  double field_search_most_m = 4.0;
+  joint::FieldSearchOptions field_search;
   /// A scan is processed after so much motion (m, rad) or time (s) since the last one that was.
   double process_every_m = 0.1;
   double process_every_rad = radians(5.0);
@@ -61,7 +66,7 @@ class Joint {
   struct Counts {
     std::uint64_t late_scans = 0, blind_scans = 0, scans_without_odometry = 0;
     std::uint64_t bad_field = 0, field_without_odometry = 0, stations = 0;
-    std::uint64_t searches = 0, cut_searches = 0, times_lost = 0;
+    std::uint64_t searches = 0, cut_searches = 0, field_searches = 0, times_lost = 0;
   };
   /// Readings wait for the odometry around them, but no longer than until the next scan is processed.
   void take_waiting(bool now);
@@ -70,7 +75,10 @@ class Joint {
   joint::Step make_step(Stamp stamp, const Pose2& track_T_base);
   PointSet points_of(const LaserScan& scan, const Pose2& track_T_base);
   void advance(const joint::Step& step, const Pose2& track_T_base);
-  void search_if_due(const joint::Step& step);
+  void search_if_due(const joint::Step& step, const Pose2& track_T_base);
+  bool search_by_scan(const joint::Step& step);
+  void search_by_field(const Pose2& track_T_base);
+  void remember(const joint::Step& step, const Pose2& track_T_base);
   void judge(const Pose2& last_T_base);
   double probability_near(const Pose2& map_T_base) const;
 
@@ -90,6 +98,13 @@ class Joint {
   std::uint64_t breaks_at_last_step_ = 0;
   double travelled_m_ = 0.0;
   double searched_at_m_ = -1e9;
+  /// The stations of the last metres: where the base was by odometry, how far driven by then.
+  struct Passed {
+    Pose2 track_T_base;
+    double travelled_m;
+    joint::Station station;
+  };
+  std::deque<Passed> passed_;
   LocalizationStatus status_ = LocalizationStatus::kSearching;
   std::optional<Pose2> candidate_;  ///< the place that was best at the last step
   double agreed_m_ = 0.0;           ///< for how long it has been probable enough

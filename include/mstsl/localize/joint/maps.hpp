@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "mstsl/localize/joint/field_search.hpp"
 #include "mstsl/localize/localization_maps.hpp"
 #include "mstsl/scan/place_search.hpp"
 #include "mstsl/scan/wall_field.hpp"
@@ -13,6 +14,7 @@ struct Maps {
   std::shared_ptr<const LocalizationMaps> both;
   std::shared_ptr<const WallField> walls;
   PlaceSearch places;
+  FieldSearch by_field;
 };
 
 std::shared_ptr<const Maps> make_maps(std::shared_ptr<const LocalizationMaps> both,

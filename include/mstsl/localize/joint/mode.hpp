@@ -37,7 +37,7 @@ struct Mode {
   Covariance covariance = Covariance::Zero();
   double log_weight = 0.0;  ///< natural log; normalised by ModeBank
   double changed = 0.0;     ///< probability that the map is of no use here: steel was moved
-  ErrorScale scale;
+  ErrorScale scale = {};
   double scan_account = 0.0;  ///< log evidence of the present place by scans that is in log_weight already
 
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }

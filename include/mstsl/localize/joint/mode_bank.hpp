@@ -74,6 +74,8 @@ class ModeBank {
 
   /// Gives most of the weight of "none of these" to the places that the scan allows.
   void add(const std::vector<WallFit>& places);
+  /// The same for places that the field allows, found on a grid of such steps.
+  void add(const std::vector<Pose2>& places, double step_m, double turn_rad);
 
   /// Best first. Their weights and elsewhere_share() sum to 1.
   const std::vector<Mode>& modes() const { return modes_; }
@@ -83,6 +85,7 @@ class ModeBank {
   double best_score() const { return best_score_; }
 
  private:
+  void add_modes(std::vector<Mode> modes);
   void move(const Step& step);
   void weigh_by_field(const std::vector<Station>& stations);
   void weigh_by_scan(const PointSet& points_base_m);
