@@ -220,11 +220,11 @@ void Joint::judge(const Pose2& last_T_base) {
   const bool goes_on = candidate_ && same_place(*candidate_ * last_T_base, best);
   candidate_ = best;
   probability_ = probability_near(best);
-  agreed_m_ = goes_on && probability_ >= options_.localized_from
-                  ? agreed_m_ + std::hypot(last_T_base.x, last_T_base.y)
-                  : 0.0;
+  const double moved_m = std::hypot(last_T_base.x, last_T_base.y);
+  agreed_m_ = goes_on && probability_ >= options_.localized_from ? agreed_m_ + moved_m : 0.0;
+  doubted_m_ = probability_ < options_.lost_below ? doubted_m_ + moved_m : 0.0;
   if (status_ == LocalizationStatus::kLocalized) {
-    if (goes_on && probability_ >= options_.lost_below) return;
+    if (goes_on && doubted_m_ < options_.lost_after_m) return;
     status_ = LocalizationStatus::kLost;
     ++counts_.times_lost;
   } else if (agreed_m_ >= options_.agree_m) {

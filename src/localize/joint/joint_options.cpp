@@ -13,6 +13,7 @@ using Named = std::pair<const char*, double>;
 std::optional<Error> not_positive(const JointOptions& o) {
   const joint::FieldModel& field = o.bank.field;
   for (const auto& [name, value] : {Named{"agree_m", o.agree_m},
+                                    {"lost_after_m", o.lost_after_m},
                                     {"search_every_m", o.search_every_m},
                                     {"process_every_m", o.process_every_m},
                                     {"process_every_rad", o.process_every_rad},

@@ -22,8 +22,10 @@ struct JointOptions {
   double localized_from = 0.999;
   /// ... once it has held for this way (m): what two near places show is nearly the same evidence.
   double agree_m = 1.0;
-  /// A published pose is taken back below this.
+  /// A published pose is taken back when its probability has been below this for so long a way (m): who
+  /// stands before the laser for a moment is gone by then.
   double lost_below = 0.5;
+  double lost_after_m = 0.3;
   /// The places that a scan allows are searched for when "none of these" has more than this share ...
   double search_above = 0.3;
   /// ... but not more often than this (m): the new ones need a way to prove themselves.
@@ -108,6 +110,7 @@ class Joint {
   LocalizationStatus status_ = LocalizationStatus::kSearching;
   std::optional<Pose2> candidate_;  ///< the place that was best at the last step
   double agreed_m_ = 0.0;           ///< for how long it has been probable enough
+  double doubted_m_ = 0.0;          ///< for how long the published pose has been improbable
   double probability_ = 0.0;
 };
 
