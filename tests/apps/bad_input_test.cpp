@@ -103,12 +103,25 @@ TEST(BadInput, ScansOfNaNInfinityOrNothingAreCountedOrPassedOver) {
       << printed.text;
 }
 
-TEST(BadInput, NothingButBlindScansEndsWithoutAFix) {
-  const Printed printed = localize_changed("blind", [](const SensorEvent& event) -> std::vector<SensorEvent> {
-    const auto* scan = std::get_if<LaserScan>(&event);
-    if (scan == nullptr) return {event};
-    return {with_ranges(*scan, std::vector<float>(541, std::numeric_limits<float>::quiet_NaN()))};
+/// Scans without a return; the field as it is, or one that never changes.
+Printed localize_blind(const std::string& name, bool with_field) {
+  return localize_changed(name, [with_field](const SensorEvent& event) -> std::vector<SensorEvent> {
+    if (const auto* scan = std::get_if<LaserScan>(&event))
+      return {with_ranges(*scan, std::vector<float>(541, std::numeric_limits<float>::quiet_NaN()))};
+    if (const auto* field = std::get_if<FieldReading>(&event); field != nullptr && !with_field)
+      return {FieldReading{field->stamp, {18.0, 3.0, -42.0}}};
+    return {event};
   });
+}
+
+TEST(BadInput, NothingButBlindScansLeavesTheField) {
+  const Printed printed = localize_blind("blind", true);
+  EXPECT_EQ(printed.exit_status, 0) << printed.text;
+  EXPECT_TRUE(printed.says("searches by the field alone")) << printed.text;
+}
+
+TEST(BadInput, NothingButBlindScansAndADeadMagnetometerEndsWithoutAFix) {
+  const Printed printed = localize_blind("blind_and_dead", false);
   EXPECT_EQ(printed.exit_status, 3) << printed.text;
 }
 
