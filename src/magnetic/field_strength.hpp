@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -25,10 +26,12 @@ class FieldStrength {
   struct Sums {
     float weight = 0.0f, squares = 0.0f;
   };
-  Sums& node(int column, int row) { return sums_[static_cast<std::size_t>(row * columns_ + column)]; }
-  const Sums& node(int column, int row) const {
-    return sums_[static_cast<std::size_t>(row * columns_ + column)];
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
   }
+  Sums& node(int column, int row) { return sums_[index(column, row)]; }
+  const Sums& node(int column, int row) const { return sums_[index(column, row)]; }
   void blur(int nodes, bool along_rows);
 
   double step_m_;

@@ -20,8 +20,8 @@ std::size_t fill_by_gpr(const SurveyAnalysis& survey, const FieldArea& area, con
   const PutCell put = [&](std::size_t cell, int c, double mean_uT, double variance_uT2) {
     const double strength_here = strength.at(area.geometry.center_of(area.geometry.cell(cell)));
     map.mean_uT[cell](c) = static_cast<float>(mean_uT);
-    map.variance_uT2[cell](c) = static_cast<float>(
-        survey.calibration.of_variance.apply(Eigen::Array3d::Constant(variance_uT2), strength_here)(c));
+    map.variance_uT2[cell](c) =
+        static_cast<float>(survey.calibration.of_variance.apply(c, variance_uT2, strength_here));
   };
   for (std::size_t cell = 0; cell < area.wanted.size(); ++cell)
     for (int c = 0; area.wanted[cell] != 0 && c < 3; ++c)

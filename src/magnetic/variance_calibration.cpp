@@ -19,10 +19,6 @@ constexpr double kLeastStrength = 1e-3,
                  kMostStrength = 1e3;  // of the field's variance: beyond, take it as this
 constexpr double kLeastVariance_uT2 = 1e-6;
 
-double strengthened(double strength, double power) {
-  return std::pow(std::clamp(strength, kLeastStrength, kMostStrength), power);
-}
-
 /// Log of the density of an error of that variance, and its derivative by the variance's log.
 struct Density {
   double log, by_log_variance;
@@ -112,19 +108,20 @@ double log_variance(double sd_uT) { return std::log(std::max(sd_uT * sd_uT, kLea
 }  // namespace
 
 Array3d VarianceCalibration::reading_variance_uT2(double strength) const {
-  Array3d b;
-  for (int c = 0; c < 3; ++c) b(c) = strengthened(strength, power(c));
-  return even_sd_uT.square() + b * uneven_sd_uT.square();
+  return apply(Array3d::Zero(), strength);
 }
 
 Array3d VarianceCalibration::apply(const Array3d& variance_uT2, double strength) const {
-  Array3d result = reading_variance_uT2(strength);
-  for (int c = 0; c < 3; ++c) {
-    const double b = strengthened(strength, power(c)), f = factor(c) * std::min(b, 1.0);
-    const double share = variance_uT2(c) / (prior_sd_uT(c) * prior_sd_uT(c));
-    result(c) += std::max(b, 1.0) * f * variance_uT2(c) / (1.0 + (f - 1.0) * share);
-  }
+  Array3d result;
+  for (int c = 0; c < 3; ++c) result(c) = apply(c, variance_uT2(c), strength);
   return result;
+}
+
+double VarianceCalibration::apply(int c, double variance_uT2, double strength) const {
+  const double b = std::pow(std::clamp(strength, kLeastStrength, kMostStrength), power(c));
+  const double f = factor(c) * std::min(b, 1.0), share = variance_uT2 / (prior_sd_uT(c) * prior_sd_uT(c));
+  const double of_map = std::max(b, 1.0) * f * variance_uT2 / (1.0 + (f - 1.0) * share);
+  return of_map + even_sd_uT(c) * even_sd_uT(c) + b * uneven_sd_uT(c) * uneven_sd_uT(c);
 }
 
 VarianceCalibration calibrate(std::span<const HeldOutError> errors, const VarianceCalibration& prior,

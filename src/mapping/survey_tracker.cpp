@@ -23,7 +23,7 @@ Pose2 moved(const Pose2& pose, const Vector3d& by) {
   return Pose2::from(pose.position() + by.head<2>(), pose.yaw + by.z());
 }
 
-/// The information of a scan whose points on no wall say nothing: a fit on half of them is worth half.
+/// A scan with fewer of its points on walls says nothing of where it was taken.
 constexpr double kLeastScore = 0.25;
 
 }  // namespace

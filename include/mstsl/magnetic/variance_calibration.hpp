@@ -31,6 +31,7 @@ struct VarianceCalibration {
   Eigen::Array3d prior_sd_uT = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
 
   Eigen::Array3d apply(const Eigen::Array3d& variance_uT2, double strength = 1.0) const;
+  double apply(int component, double variance_uT2, double strength) const;
   /// Of a reading where the map is sure.
   Eigen::Array3d reading_variance_uT2(double strength = 1.0) const;
 };

@@ -194,7 +194,7 @@ void Joint::search_by_field(const Pose2& track_T_base) {
   bank_.add(
       maps_->by_field.find(way, maps_->both->field_cells, rig_.base_T_magnetometer.translation().head<2>(),
                            options_.bank.field, options_.bank.threads),
-      options_.field_search.step_m, options_.field_search.turn_rad);
+      maps_->by_field.options().step_m, maps_->by_field.options().turn_rad);
 }
 
 void Joint::remember(const joint::Step& step, const Pose2& track_T_base) {

@@ -15,6 +15,7 @@ std::optional<Error> not_positive(const JointOptions& o) {
   for (const auto& [name, value] : {Named{"agree_m", o.agree_m},
                                     {"lost_after_m", o.lost_after_m},
                                     {"search_every_m", o.search_every_m},
+                                    {"field_search_least_m", o.field_search_least_m},
                                     {"process_every_m", o.process_every_m},
                                     {"process_every_rad", o.process_every_rad},
                                     {"process_every_s", o.process_every_s},
@@ -59,6 +60,10 @@ std::optional<Error> invalid(const JointOptions& options) {
   if (!(options.lost_below < options.localized_from))
     return Error(fmt::format("a pose is taken back below {}, but published from {} on: it would flicker",
                              options.lost_below, options.localized_from));
+  if (!(options.field_search_least_m < options.field_search_most_m))
+    return Error(
+        fmt::format("the field is searched for over at least {} m of the way, but only {} m are kept",
+                    options.field_search_least_m, options.field_search_most_m));
   if (auto error = not_positive(options)) return error;
   return no_share(options);
 }

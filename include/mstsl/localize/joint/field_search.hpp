@@ -29,7 +29,9 @@ class FieldSearch {
  public:
   FieldSearch(const OccupancyGrid& occupancy, const FieldSearchOptions& options = {});
 
-  /// Where the base may be now. `way` holds stations as seen from there, in any order.
+  const FieldSearchOptions& options() const { return options_; }
+
+  /// Where the base may be now. `way` holds stations as seen from there, in the order of the drive.
   std::vector<Pose2> find(std::span<const Station> way, const FieldSampler& field,
                           const Eigen::Vector2d& magnetometer_m, const FieldModel& model,
                           Threads threads) const;

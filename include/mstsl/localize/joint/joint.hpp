@@ -34,7 +34,6 @@ struct JointOptions {
   /// most so many.
   double field_search_least_m = 2.0;
   double field_search_most_m = 4.0;
-  joint::FieldSearchOptions field_search;
   /// A scan is processed after so much motion (m, rad) or time (s) since the last one that was.
   double process_every_m = 0.1;
   double process_every_rad = radians(5.0);
