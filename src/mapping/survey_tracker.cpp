@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "mstsl/localize/motion.hpp"
 #include "mstsl/scan/points.hpp"
 
 namespace mstsl {
@@ -101,12 +102,9 @@ void SurveyTracker::go_on(const PointSet& points, Stamp stamp, const Pose2& trac
   const Node& last = nodes_.back();
   const Pose2 motion = between(last.track_T_base, track_T_base);
   Node node{stamp, track_T_base, last.map_T_base * motion, {}, {}, {}, Matrix3d::Identity(), 0.0};
-  const Eigen::Vector2d shift = node.predicted.position() - last.map_T_base.position();
-  node.by_last(0, 2) = -shift.y(), node.by_last(1, 2) = shift.x();
-  Matrix3d by_motion = Matrix3d::Identity();
-  by_motion.topLeftCorner<2, 2>() = last.map_T_base.rotation();
+  node.by_last = by_pose_before(last.map_T_base, motion);
   node.predicted_covariance = node.by_last * last.covariance * node.by_last.transpose() +
-                              by_motion * options_.odometry.covariance(motion) * by_motion.transpose();
+                              in_map(last.map_T_base, options_.odometry.covariance(motion));
   if (track_.breaks() != breaks_at_last_) node.predicted_covariance += options_.at_start.spread();
   breaks_at_last_ = track_.breaks();
 

@@ -12,6 +12,12 @@ namespace mstsl {
 /// by the whole composition, map_T_base * base_T_moved, which holds for curves as well.
 Pose2 straight_motion(const Pose2& from, double distance_m, double turn_rad);
 
+/// How map_T_base * step changes with map_T_base (x, y, yaw; map frame): a turn of the base swings the step.
+Eigen::Matrix3d by_pose_before(const Pose2& map_T_base, const Pose2& step);
+
+/// The covariance of a step, given in the axes of the base before it, in the map's.
+Eigen::Matrix3d in_map(const Pose2& map_T_base, const Eigen::Matrix3d& step_covariance);
+
 /// The covariance (x, y, yaw; map frame) of map_T_base * step, for a pose of covariance `covariance` and a
 /// step by odometry with its errors: first order.
 Eigen::Matrix3d moved_covariance(const Pose2& map_T_base, const Eigen::Matrix3d& covariance,

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "mstsl/core/angles.hpp"
+#include "mstsl/localize/motion.hpp"
 
 #include "kalman.hpp"
 
@@ -68,16 +69,12 @@ Mode make_mode(const Pose2& map_T_base, const Eigen::Matrix3d& pose_covariance, 
 
 void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion_covariance,
              double bias_walk_uT) {
-  const Eigen::Matrix2d rotation = mode.map_T_base.rotation();
-  const Eigen::Vector2d shift = rotation * last_T_base.position();
-  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity(), by_motion = Eigen::Matrix3d::Identity();
-  by_pose(0, 2) = -shift.y(), by_pose(1, 2) = shift.x();
-  by_motion.topLeftCorner<2, 2>() = rotation;
+  const Eigen::Matrix3d by_pose = by_pose_before(mode.map_T_base, last_T_base);
   Covariance& p = mode.covariance;
   p.topRows<3>() = (by_pose * p.topRows<3>()).eval();
   p.leftCols<3>() = (p.leftCols<3>() * by_pose.transpose()).eval();
-  p.topLeftCorner<3, 3>() += by_motion * motion_covariance * by_motion.transpose();
-  p.diagonal().segment<3>(kBias).array() += square(bias_walk_uT) * shift.norm();
+  p.topLeftCorner<3, 3>() += in_map(mode.map_T_base, motion_covariance);
+  p.diagonal().segment<3>(kBias).array() += square(bias_walk_uT) * last_T_base.position().norm();
   mode.map_T_base = mode.map_T_base * last_T_base;
 }
 
