@@ -111,7 +111,7 @@ void LidarStage::match(LidarHypothesis& hypothesis, const PointSet& local_points
       hypothesis.map_T_start * local_T_base,
       moved_covariance(hypothesis.map_T_start, hypothesis.start_covariance, local_T_base, options_.odometry)};
   const auto found =
-      match_submap(maps_->walls, local_points_base_m, scan_points_base_m, prior, options_.match);
+      match_submap(*maps_->walls, local_points_base_m, scan_points_base_m, prior, options_.match);
   hypothesis.score = found ? found->confidence : 0.0;
   hypothesis.low_scores = hypothesis.score < options_.min_score ? hypothesis.low_scores + 1 : 0;
   if (!found) {
@@ -133,7 +133,7 @@ std::optional<Rejection> LidarStage::impossible(const LidarHypothesis& hypothesi
   Pose2 from = map_T_local * local_path_.front();
   for (const Pose2& local_T_base : local_path_) {
     const Pose2 to = map_T_local * local_T_base;
-    const Crossing crossing = crosses(maps_->walls.occupancy, from.position(), to.position());
+    const Crossing crossing = crosses(maps_->occupancy, from.position(), to.position());
     if (crossing.wall) return Rejection::kCrossesWall;
     if (crossing.leaves_known_space()) return Rejection::kOutOfMap;
     from = to;

@@ -20,7 +20,7 @@ bool is_free(const OccupancyGrid& occupancy, const Eigen::Vector2d& map_point_m)
 double keep_free_cells(const OccupancyGrid& occupancy, FieldMap& field) {
   std::size_t before = 0, kept = 0;
   for (std::size_t i = 0; i < field.supported.size(); ++i) {
-    if (field.supported[i] == 0 || !std::isfinite(field.mean_uT[i].x())) continue;
+    if (field.supported[i] == 0 || !field.has_value(field.geometry.cell(i))) continue;
     ++before;
     if (is_free(occupancy, field.geometry.center_of(field.geometry.cell(i))))
       ++kept;
@@ -48,15 +48,20 @@ Result<std::shared_ptr<const LocalizationMaps>> make_localization_maps(
     return Error("the occupancy map has no wall next to free space, so no scan can be matched to it");
   const double on_free = field.model == FieldModel::kFingerprint ? keep_free_fingerprints(occupancy, field)
                                                                  : keep_free_cells(occupancy, field);
-  if (on_free < options.min_field_on_free_share)
+  if (!(on_free > 0.0) || on_free < options.min_field_on_free_share)
     return Error(fmt::format(
         "the field map is of another place: only {:.0f} % of it lies on free cells of the occupancy map; "
         "give it the field map made with this very map",
         100.0 * on_free));
-  Result<FieldMatcher> matcher = FieldMatcher::make(field, {.threads = options.threads});
-  if (!matcher) return matcher.error();
-  return std::make_shared<const LocalizationMaps>(LocalizationMaps{
-      MatchMap(std::move(occupancy)), std::move(matcher).value(), FieldSampler(field), *axis, on_free});
+  FieldSampler field_cells(field);
+  Lazy<MatchMap> walls([occupancy] { return MatchMap(occupancy); });
+  Lazy<FieldMatcher> matcher([field = std::make_shared<const FieldMap>(std::move(field)),
+                              threads = options.threads] {
+    return FieldMatcher::make(*field, {.threads = threads}).value();  // it has a value on a free cell
+  });
+  return std::make_shared<const LocalizationMaps>(LocalizationMaps{std::move(occupancy),
+                                                                   std::move(field_cells), *axis, on_free,
+                                                                   std::move(walls), std::move(matcher)});
 }
 
 }  // namespace mstsl

@@ -44,12 +44,12 @@ bool Tracker::lost(bool other_witness_agrees) const {
 void Tracker::refine(const PointSet& points_base_m) {
   const PointSet few = at_most(thinned(points_base_m, options_.spacing_m), options_.max_points);
   const Refinement refined =
-      refine_pose(maps_->walls.field, few, map_T_base_, {map_T_base_, covariance_}, options_.refine);
+      refine_pose(maps_->walls->field, few, map_T_base_, {map_T_base_, covariance_}, options_.refine);
   if (refined.map_T_base.is_finite() && refined.covariance.allFinite()) {
     map_T_base_ = refined.map_T_base;
     covariance_ = refined.covariance;
   }
-  score_ = confidence_score(maps_->walls.occupancy, points_base_m, map_T_base_, options_.score);
+  score_ = confidence_score(maps_->occupancy, points_base_m, map_T_base_, options_.score);
 }
 
 /// Looks around for a pose that explains the scan, and takes it only if it does so as well as an answer must.
@@ -57,8 +57,8 @@ void Tracker::search(const PointSet& points_base_m) {
   const PosePrior around{map_T_base_,
                          covariance_ + diagonal(options_.search_sigma_m, options_.search_sigma_rad)};
   const PointSet few = at_most(thinned(points_base_m, options_.spacing_m), options_.max_points);
-  const auto found = match_submap(maps_->walls, few, points_base_m, around, options_.search);
-  const double here = confidence_score(maps_->walls.occupancy, points_base_m, map_T_base_, options_.score);
+  const auto found = match_submap(*maps_->walls, few, points_base_m, around, options_.search);
+  const double here = confidence_score(maps_->occupancy, points_base_m, map_T_base_, options_.score);
   score_ = here;
   if (!found || found->confidence <= here || found->confidence < options_.min_found_score) return;
   map_T_base_ = found->refined.map_T_base;

@@ -100,7 +100,7 @@ void TwoStep::advance(Gathering& gathering, const Step& step) {
   gathering.reading.observe_scan(step.stamp, end_points(step.returns), step.track_T_base, random_);
   const std::optional<AlignedReading> reading = gathering.reading.take();
   if (!reading) return;
-  const auto hypotheses = initialise(maps_->field, maps_->building_axis_rad, *reading,
+  const auto hypotheses = initialise(*maps_->field, maps_->building_axis_rad, *reading,
                                      rig_.base_T_magnetometer, options_.initialise);
   if (hypotheses.empty()) return search_again();
   ++counts_.searches;

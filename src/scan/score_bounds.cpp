@@ -13,21 +13,19 @@ constexpr std::array kSlacks_m{0.0, 0.12, 0.15, 0.19, 0.25, 0.33, 0.40, 0.50, 0.
 
 constexpr double kFullScale = 255.0;
 
-std::vector<std::uint8_t> layer(const DistanceField& distances, double slack_m, double sigma_m, int margin) {
-  const GridGeometry& g = distances.geometry();
-  const auto stride = static_cast<std::size_t>(g.columns + 2 * margin);
-  const bool anything = slack_m >= distances.max_distance_m();
-  std::vector<std::uint8_t> values(stride * static_cast<std::size_t>(g.rows + 2 * margin),
-                                   anything ? 255 : 0);
-  if (anything) return values;
-  for (int row = 0; row < g.rows; ++row) {
-    for (int column = 0; column < g.columns; ++column) {
-      const double away = std::max(0.0, distances.at(Cell{column, row}) - slack_m) / sigma_m;
-      values[static_cast<std::size_t>(row + margin) * stride + static_cast<std::size_t>(column + margin)] =
-          static_cast<std::uint8_t>(std::ceil(kFullScale * std::exp(-0.5 * away * away)));
-    }
-  }
-  return values;
+/// What a point at such a distance from a wall scores at most, when it may move by the slack; rounded up.
+std::uint8_t at_most(double distance_m, double slack_m, double sigma_m) {
+  const double away = std::max(0.0, distance_m - slack_m) / sigma_m;
+  return static_cast<std::uint8_t>(std::ceil(kFullScale * std::exp(-0.5 * away * away)));
+}
+
+/// The same for all distances that two cells can have: by their square, in cells.
+std::vector<std::uint8_t> by_squared_cells(const DistanceField& distances, double slack_m, double sigma_m) {
+  const double cell_m = distances.geometry().resolution_m, farthest_m = distances.max_distance_m();
+  std::vector<std::uint8_t> table;
+  for (int squared = 0; table.empty() || std::sqrt(squared - 1) * cell_m < farthest_m; ++squared)
+    table.push_back(at_most(std::min(farthest_m, std::sqrt(squared) * cell_m), slack_m, sigma_m));
+  return table;
 }
 
 }  // namespace
@@ -36,8 +34,25 @@ ScoreBounds::ScoreBounds(const WallField& walls, double sigma_m, double reach_m)
     : frame_(walls.geometry()),
       margin_(static_cast<int>(std::ceil(reach_m / walls.geometry().resolution_m)) + 2),
       stride_(static_cast<std::size_t>(walls.geometry().columns + 2 * margin_)) {
-  for (const double slack_m : kSlacks_m)
-    layers_.push_back({slack_m, layer(walls.distances(), slack_m, sigma_m, margin_)});
+  const GridGeometry& g = walls.geometry();
+  const std::size_t size = stride_ * static_cast<std::size_t>(g.rows + 2 * margin_);
+  std::vector<std::vector<std::uint8_t>> tables;
+  for (const double slack_m : kSlacks_m) {
+    const bool anything = slack_m >= walls.reach_m();
+    layers_.push_back({slack_m, std::vector<std::uint8_t>(size, anything ? 255 : 0)});
+    if (!anything) tables.push_back(by_squared_cells(walls.distances(), slack_m, sigma_m));
+  }
+  const std::vector<float>& distances_m = walls.distances().values_m().values();
+  for (int row = 0; row < g.rows; ++row) {
+    const std::size_t from = g.index({0, row}), to = static_cast<std::size_t>(row + margin_) * stride_ +
+                                                     static_cast<std::size_t>(margin_);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(g.columns); ++i) {
+      const double cells = distances_m[from + i] / g.resolution_m;
+      const auto squared = static_cast<std::size_t>(std::lround(cells * cells));
+      for (std::size_t k = 0; k < tables.size(); ++k)
+        layers_[k].values[to + i] = tables[k][std::min(squared, tables[k].size() - 1)];
+    }
+  }
 }
 
 std::size_t ScoreBounds::place(const Eigen::Vector2d& map_point_m) const {

@@ -34,7 +34,7 @@ TEST(Initialise, FindsThePlaceAndTheHeadingInAllFourDirections) {
     for (const double residual_deg : {0.0, 25.0, -60.0}) {
       const Pose2 pose{5.2, 1.1, radians(heading_deg + residual_deg)};
       const auto hypotheses =
-          initialise(world.maps->field, world.maps->building_axis_rad,
+          initialise(*world.maps->field, world.maps->building_axis_rad,
                      reading_at(world, pose, radians(residual_deg), Eigen::Isometry3d::Identity()),
                      Eigen::Isometry3d::Identity(), {});
       ASSERT_FALSE(hypotheses.empty());
@@ -51,7 +51,7 @@ TEST(Initialise, TakesTheLeverArmOfTheMagnetometerOff) {
   const Pose2 pose{22.8, 5.0, radians(90)};
   InitialiseOptions options;
   options.distinct.count = 20;  // more than five places have this reading; which come first is not the point
-  const auto hypotheses = initialise(world.maps->field, world.maps->building_axis_rad,
+  const auto hypotheses = initialise(*world.maps->field, world.maps->building_axis_rad,
                                      reading_at(world, pose, 0.0, mounting), mounting, options);
   EXPECT_LT(distance(nearest_to(hypotheses, pose).map_T_base, pose), 0.2);
 }
@@ -65,7 +65,7 @@ TEST(Initialise, ATiltedMagnetometerGivesTheSameHypotheses) {
        Eigen::AngleAxisd(0.9, Eigen::Vector3d::UnitX()))
           .toRotationMatrix();
   const auto from = [&](const Eigen::Isometry3d& mounting) {
-    return initialise(world.maps->field, world.maps->building_axis_rad,
+    return initialise(*world.maps->field, world.maps->building_axis_rad,
                       reading_at(world, pose, 0.1, mounting), mounting, {});
   };
   const auto upright = from(Eigen::Isometry3d::Identity()), leaning = from(tilted);
@@ -80,7 +80,7 @@ TEST(Initialise, ProbabilitiesAreSharesOfOneWhole) {
   const test::HandMadeWorld world;
   InitialiseOptions options;
   options.distinct.count = 400;
-  const auto hypotheses = initialise(world.maps->field, world.maps->building_axis_rad,
+  const auto hypotheses = initialise(*world.maps->field, world.maps->building_axis_rad,
                                      reading_at(world, {5.2, 1.1, 0}, 0, Eigen::Isometry3d::Identity()),
                                      Eigen::Isometry3d::Identity(), options);
   const double sum = std::accumulate(hypotheses.begin(), hypotheses.end(), 0.0,

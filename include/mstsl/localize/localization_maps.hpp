@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "mstsl/core/lazy.hpp"
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
 #include "mstsl/grid/occupancy_grid.hpp"
@@ -15,12 +16,12 @@ namespace mstsl {
 /// The paper's M = [m^B, m^L], made ready for use. Made once, then only read, by as many runs and threads as
 /// like.
 struct LocalizationMaps {
-  MatchMap walls;
-  FieldMatcher field;
+  OccupancyGrid occupancy;
   FieldSampler field_cells;
-  double building_axis_rad = 0.0;  ///< x axis of the map's body frame
-  double field_on_free_share =
-      1.0;  ///< of the field's supported places: those that the walls' map calls free
+  double building_axis_rad;    ///< x axis of the map's body frame
+  double field_on_free_share;  ///< of the field's supported places: those that the walls' map calls free
+  Lazy<MatchMap> walls;        ///< for matching scans by a pyramid, as the paper and Cartographer do
+  Lazy<FieldMatcher> field;    ///< for finding single readings, as the paper does
 };
 
 struct LocalizationMapsOptions {

@@ -47,13 +47,13 @@ std::optional<GlobalScan::Match> GlobalScan::match(const PointSet& points_base_m
   PoseSearchOptions search;
   search.min_score = options_.min_score;
   const auto found =
-      search_poses(maps_->walls.pyramid, points, SearchWindow::whole(maps_->walls.field.geometry()), search);
+      search_poses(maps_->walls->pyramid, points, SearchWindow::whole(maps_->walls->field.geometry()), search);
   if (found.empty()) return std::nullopt;
   // The lattice's cells are 5 cm; the prior is far wider and leaves the word to the scan.
   constexpr double kWide_m = 0.2, kWide_rad = 0.1;
   const Pose2& start = found.front().map_T_base;
   return Match{
-      refine_pose(maps_->walls.field, points, start, PosePrior::isotropic(start, kWide_m, kWide_rad)),
+      refine_pose(maps_->walls->field, points, start, PosePrior::isotropic(start, kWide_m, kWide_rad)),
       found.front().score};
 }
 

@@ -30,7 +30,7 @@ MagFilter::MagFilter(std::shared_ptr<const LocalizationMaps> maps, const Rig& ri
 }
 
 void MagFilter::spread() {
-  const OccupancyGrid& grid = maps_->walls.occupancy;
+  const OccupancyGrid& grid = maps_->occupancy;
   const std::vector<Cell> cells = free_cells(grid);
   particles_.resize(options_.particles);
   for (Particle& particle : particles_) {
@@ -88,7 +88,7 @@ void MagFilter::weigh(const Eigen::Vector3d& base_field_uT) {
     const Eigen::Vector3d off = turned_by(pose.yaw) * base_field_uT - sample.mean_uT;
     const Eigen::Array3d variance = sample.variance_uT2.array() + options_.sigma_uT * options_.sigma_uT;
     logs[i] = -0.5 * options_.temper * (off.array().square() / variance + variance.log()).sum();
-    if (state_at(maps_->walls.occupancy, pose.position()) != CellState::kFree)
+    if (state_at(maps_->occupancy, pose.position()) != CellState::kFree)
       logs[i] += std::log(kOffGround);
     logs[i] += std::log(std::max(particles_[i].weight, 1e-300));
   }

@@ -119,7 +119,7 @@ std::vector<double> ModeBank::fit_all(const PointSet& points) {
       const WallFit fit = fit_to_walls(*maps_->walls, points,
                                        {modes_[i].map_T_base, modes_[i].pose_covariance()}, options_.fit);
       update_by_scan(modes_[i], fit);
-      scores[i] = fit.score * standing(maps_->both->walls.occupancy, fit.map_T_base);
+      scores[i] = fit.score * standing(maps_->both->occupancy, fit.map_T_base);
       if (modes_.size() <= options_.few && i < kSearched && scores[i] < options_.search_below)
         search_around(modes_[i], scores[i], points);
     }
@@ -130,7 +130,7 @@ std::vector<double> ModeBank::fit_all(const PointSet& points) {
 void ModeBank::search_around(Mode& mode, double& score, const PointSet& points) const {
   const Surroundings around;
   const WallFit best = fit_around(*maps_->walls, points, mode.map_T_base, around, options_.fit);
-  const double found = best.score * standing(maps_->both->walls.occupancy, best.map_T_base);
+  const double found = best.score * standing(maps_->both->occupancy, best.map_T_base);
   if (found < score + options_.search_gain) return;
   score = found;
   reseat(mode, best, around.spread(), 1.0);
@@ -226,11 +226,10 @@ void ModeBank::merge() {
 }
 
 void ModeBank::drop() {
-  if (modes_.size() <= options_.few) return;
-  const double least = modes_.front().log_weight + options_.drop_below;
-  const auto first = std::find_if(modes_.begin() + static_cast<std::ptrdiff_t>(options_.few), modes_.end(),
-                                  [&](const Mode& mode) { return mode.log_weight < least; });
-  modes_.erase(first, modes_.end());
+  if (modes_.empty()) return;
+  std::erase_if(modes_, [least = modes_.front().log_weight + options_.drop_below](const Mode& mode) {
+    return mode.log_weight < least;
+  });
 }
 
 void ModeBank::add(const std::vector<WallFit>& places) {

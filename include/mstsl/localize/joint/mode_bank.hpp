@@ -45,9 +45,10 @@ struct BankOptions {
   double carried_in_the_dark = 0.02;
   /// "None of these" before anything is known.
   double elsewhere_prior = 0.02;
-  /// Modes this improbable (natural log) against the best are dropped, once their number hurts.
+  /// Modes this improbable (natural log) against the best are dropped: "none of these" always holds more, and
+  /// its search finds them again.
   double drop_below = -25.0;
-  /// Fits are made for all modes after this much motion while they are many, and at each step when few.
+  /// Fits are made after this much motion while modes are many, and at each step when few.
   double fit_every_m = 0.3;
   double fit_every_rad = radians(12.0);
   std::size_t few = 60;
