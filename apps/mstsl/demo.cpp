@@ -96,7 +96,10 @@ Result<Exit> demo(const Session& session, const DemoWish& wish) {
       !done)
     return done.error();
   const fs::path picture = folder / "demo.png";
-  if (auto done = write_run_picture({map, field, truths.front(), estimates.front()}, picture); !done)
+  if (auto done = write_run_picture({map, field, estimates.front(), truths.front()},
+                                    "Where am I? Magnetic field, LiDAR and odometry in a symmetric building",
+                                    picture);
+      !done)
     return done.error();
   if (!session.quiet)
     fmt::print("\nresults: {}\npicture of the first run: {}\n", folder.string(), picture.string());

@@ -23,6 +23,7 @@
 #include "interrupt.hpp"
 #include "output_paths.hpp"
 #include "progress.hpp"
+#include "run_picture.hpp"
 #include "session.hpp"
 #include "topic_options.hpp"
 
@@ -39,6 +40,7 @@ struct Wish {
   double localized_from = JointOptions{}.localized_from;
   fs::path output;
   std::optional<fs::path> tum;
+  std::optional<fs::path> picture, truth;
   std::optional<fs::path> calibration;
   std::vector<fs::path> logs;
   io::PlayOptions play;
@@ -164,7 +166,9 @@ std::optional<Error> overwritten(const Wish& wish) {
   std::vector<fs::path> inputs = wish.logs, outputs{wish.output};
   inputs.insert(inputs.end(), {wish.map, wish.field});
   if (wish.calibration) inputs.push_back(*wish.calibration);
-  if (wish.tum) outputs.push_back(*wish.tum);
+  if (wish.truth) inputs.push_back(*wish.truth);
+  for (const auto& output : {wish.tum, wish.picture})
+    if (output) outputs.push_back(*output);
   return overwritten_input(outputs, inputs);
 }
 
@@ -208,6 +212,11 @@ Result<Exit> localize(const Session& session, const Wish& wish) {
   if (interrupted())
     return Error(fmt::format("interrupted; {} holds the {} estimates made so far", wish.output.string(),
                              loop->counts().estimates));
+  if (wish.picture) {
+    const RunFiles files{wish.map, wish.field, wish.output, wish.truth};
+    if (auto done = write_run_picture(files, wish.logs.front().string(), *wish.picture); !done)
+      return done.error();
+  }
   print_summary(session, summary, loop->counts(), cpu_s() - before_s);
   return loop->counts().last_status == LocalizationStatus::kLocalized ? Exit::kDone : Exit::kNoFix;
 }
@@ -235,6 +244,9 @@ void add_localize(CLI::App& app, Session& session) {
       ->capture_default_str();
   command->add_option("-o,--output", wish->output, "Estimates, as JSON Lines")->required();
   command->add_option("--tum", wish->tum, "Also the trajectory, in the format that evo reads");
+  CLI::Option* picture = command->add_option(
+      "--picture", wish->picture, "Also a picture, PNG or SVG: the way on the map, with the field under it");
+  command->add_option("--truth", wish->truth, "The true way, to be drawn in the picture")->needs(picture);
   command
       ->add_option("logs", wish->logs,
                    "MCAP, rosbag2 folder, ROS 1 bag or CARMEN log; several are one after the other")

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "mstsl/core/result.hpp"
 
@@ -10,11 +12,13 @@ namespace mstsl::app {
 struct RunFiles {
   std::filesystem::path map;
   std::filesystem::path field;
-  std::filesystem::path truth;
   std::filesystem::path estimates;
+  std::optional<std::filesystem::path> truth;
 };
 
-/// Draws map, field, true and estimated path, and the initial hypotheses into a PNG.
-Result<void> write_run_picture(const RunFiles& files, const std::filesystem::path& png);
+/// Draws map, field, true and estimated path, and the hypotheses that were left a third of the way to the
+/// first pose, into a PNG or SVG.
+Result<void> write_run_picture(const RunFiles& files, const std::string& title,
+                               const std::filesystem::path& picture);
 
 }  // namespace mstsl::app

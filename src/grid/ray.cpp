@@ -57,4 +57,12 @@ Crossing crosses(const OccupancyGrid& grid, const Eigen::Vector2d& from_m, const
   return met;
 }
 
+bool ends_beyond(const OccupancyGrid& grid, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
+                 double slack_m) {
+  const Eigen::Vector2d behind_m = to_m + slack_m * (to_m - from_m).stableNormalized();
+  for (const Eigen::Vector2d& end_m : {to_m, behind_m})
+    if (state_at(grid, end_m) == CellState::kUnknown) return !crosses(grid, from_m, end_m).wall;
+  return false;
+}
+
 }  // namespace mstsl

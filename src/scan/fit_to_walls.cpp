@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "mstsl/core/angles.hpp"
+#include "mstsl/grid/ray.hpp"
 
 namespace mstsl {
 namespace {
@@ -80,16 +81,39 @@ WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, cons
   return fit;
 }
 
-double wall_score(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
-                  double sigma_m) {
+namespace {
+
+/// Mean over the points, seen from a pose, of what `score` says of their distance to the nearest wall and
+/// place.
+template <typename Score>
+double mean_score(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                  double sigma_m, Score score) {
   if (points_base_m.empty()) return 0.0;
   const Eigen::Matrix2d rotation = map_T_base.rotation();
   double sum = 0;
   for (const Eigen::Vector2d& p : points_base_m) {
-    const double d = walls.distances().at(Eigen::Vector2d(rotation * p + map_T_base.position()));
-    sum += std::exp(-0.5 * d * d / (sigma_m * sigma_m));
+    const Eigen::Vector2d at_m = rotation * p + map_T_base.position();
+    const double d = walls.distances().at(at_m);
+    sum += score(std::exp(-0.5 * d * d / (sigma_m * sigma_m)), at_m);
   }
   return sum / static_cast<double>(points_base_m.size());
+}
+
+}  // namespace
+
+double wall_score(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                  double sigma_m) {
+  return mean_score(walls, points_base_m, map_T_base, sigma_m,
+                    [](double score, const Eigen::Vector2d&) { return score; });
+}
+
+double mapped_score(const OccupancyGrid& occupancy, const WallField& walls, const PointSet& points_base_m,
+                    const Pose2& map_T_base, double sigma_m, double unmapped) {
+  return mean_score(
+      walls, points_base_m, map_T_base, sigma_m, [&](double score, const Eigen::Vector2d& at_m) {
+        const bool unknown = score < unmapped && ends_beyond(occupancy, map_T_base.position(), at_m, sigma_m);
+        return unknown ? unmapped : score;
+      });
 }
 
 }  // namespace mstsl

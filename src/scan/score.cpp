@@ -29,11 +29,6 @@ bool is_near_occupied(const OccupancyGrid& map, const Eigen::Vector2d& at_cells,
   return false;
 }
 
-/// Whether the laser saw this point through an opening into what the map does not know.
-bool is_beyond_the_map(const OccupancyGrid& map, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
-  return state_at(map, to_m) == CellState::kUnknown && !crosses(map, from_m, to_m).wall;
-}
-
 }  // namespace
 
 double confidence_score(const OccupancyGrid& map, const PointSet& points_base_m, const Pose2& map_T_base,
@@ -48,7 +43,7 @@ double confidence_score(const OccupancyGrid& map, const PointSet& points_base_m,
     const Eigen::Vector2d at_m = rotation * p + map_T_base.position();
     if (is_near_occupied(map, frame.to_grid(at_m), tolerance_cells))
       ++hits;
-    else if (!options.unmapped_is_miss && is_beyond_the_map(map, map_T_base.position(), at_m))
+    else if (!options.unmapped_is_miss && ends_beyond(map, map_T_base.position(), at_m, 0.0))
       ++not_asked;
   }
   if (points == 0) return 0.0;

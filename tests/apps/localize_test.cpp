@@ -54,6 +54,26 @@ TEST(LocalizeCommand, WritesTheSameBytesEachTime) {
   EXPECT_EQ(content_of(files.path("one.jsonl")), content_of(files.path("two.jsonl")));
 }
 
+TEST(LocalizeCommand, DrawsTheRun) {
+  const Site& files = Site::get();
+  const std::string picture = files.path("run.svg").string();
+  ASSERT_EQ(run_app(localize("run.mcap", "drawn.jsonl", "--quiet --picture " + picture)).exit_status, 0);
+  const std::string alone = content_of(picture), truth = " --truth " + files.path("truth.csv").string();
+  EXPECT_EQ(alone.find("<?xml"), 0u);
+  ASSERT_EQ(run_app(localize("run.mcap", "drawn.jsonl", "--picture " + picture + truth)).exit_status, 0);
+  EXPECT_GT(content_of(picture).size(), alone.size() + 1000) << "the true way is drawn too";
+  const Printed wrong = run_app(localize("run.mcap", "drawn.jsonl", "--picture " + picture + ".gif"));
+  EXPECT_EQ(wrong.exit_status, 1);
+  EXPECT_TRUE(wrong.says(".gif")) << wrong.text;
+}
+
+TEST(LocalizeCommand, DrawsARunWithoutAFixToo) {
+  const Site& files = Site::get();
+  const std::string picture = files.path("short.svg").string();
+  EXPECT_EQ(run_app(localize("short.mcap", "short_drawn.jsonl", "--picture " + picture)).exit_status, 3);
+  EXPECT_EQ(content_of(picture).find("<?xml"), 0u);
+}
+
 TEST(LocalizeCommand, EndsWithStatus3WithoutAFix) {
   const Printed printed = run_app(localize("short.mcap", "short.jsonl"));
   EXPECT_EQ(printed.exit_status, 3) << printed.text;

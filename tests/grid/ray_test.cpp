@@ -155,5 +155,32 @@ TEST(Crosses, CallsPlacesThatAreNoneOutside) {
   EXPECT_TRUE(crosses(grid, {1, 1}, {1e12, 1e12}).outside);
 }
 
+/// Free up to column 3, a wall in column 3 but for row 2, where what is known just ends.
+OccupancyGrid gap_in_a_wall() {
+  OccupancyGrid grid({.resolution_m = 1.0, .columns = 6, .rows = 5}, CellState::kUnknown);
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 3; ++column) grid[{column, row}] = CellState::kFree;
+    if (row != 2) grid[{3, row}] = CellState::kOccupied;
+  }
+  return grid;
+}
+
+TEST(EndsBeyond, WhereTheMapEndsButNotBehindAWall) {
+  const OccupancyGrid grid = gap_in_a_wall();
+  const Eigen::Vector2d from(0.5, 2.5);
+  EXPECT_TRUE(ends_beyond(grid, from, {4.5, 2.5}, 0.0));
+  EXPECT_TRUE(ends_beyond(grid, from, {9.5, 2.5}, 0.0)) << "beyond the grid nothing is known either";
+  EXPECT_FALSE(ends_beyond(grid, from, {4.5, 4.5}, 0.0)) << "behind the wall";
+  EXPECT_FALSE(ends_beyond(grid, from, {1.5, 2.5}, 0.0)) << "in the open";
+  EXPECT_FALSE(ends_beyond(grid, from, from, 1.0)) << "no way at all";
+}
+
+TEST(EndsBeyond, SeesASlackFartherThanTheEnd) {
+  const OccupancyGrid grid = gap_in_a_wall();
+  EXPECT_FALSE(ends_beyond(grid, {0.5, 2.5}, {2.8, 2.5}, 0.1));
+  EXPECT_TRUE(ends_beyond(grid, {0.5, 2.5}, {2.8, 2.5}, 0.3));
+  EXPECT_FALSE(ends_beyond(grid, {0.5, 1.5}, {2.8, 1.5}, 1.5)) << "the wall stands between";
+}
+
 }  // namespace
 }  // namespace mstsl

@@ -65,5 +65,42 @@ TEST(FitToWalls, StaysNearItsPriorWhateverThePointsAre) {
   }
 }
 
+TEST(MappedScore, IsTheWallScoreWhereAllIsKnown) {
+  Random random(6);
+  const OccupancyGrid map = test::drawn(test::room(), test::square_around({}, 6.0));
+  const WallField walls(map);
+  for (int i = 0; i < 50; ++i) {
+    const Pose2 pose =
+        Pose2::from({random.uniform(-1.5, 1.5), random.uniform(-1, 1)}, random.uniform(-kPi, kPi));
+    const PointSet points = seen_from(test::room(), pose, 0.02, random);
+    EXPECT_NEAR(mapped_score(map, walls, points, pose, 0.1, 0.5), wall_score(walls, points, pose, 0.1), 0.02);
+  }
+}
+
+TEST(MappedScore, HoldsAWallThatWasNeverMappedAgainstNobody) {
+  Random random(7);
+  OccupancyGrid map = test::drawn(test::room(), test::square_around({}, 6.0));
+  const WallField whole(map);
+  const Pose2 truth{0.2, 0.1, 0.4};
+  const PointSet points = seen_from(test::room(), truth, 0.01, random);
+  // The survey did not see what lies left of x = -2: wall and all.
+  for (std::size_t i = 0; i < map.values().size(); ++i)
+    if (map.geometry().center_of(map.geometry().cell(i)).x() < -2.0) map.values()[i] = CellState::kUnknown;
+  const WallField known(map);
+  const double plain = wall_score(known, points, truth, 0.1);
+  EXPECT_LT(plain, wall_score(whole, points, truth, 0.1) - 0.1);
+  const double mapped = mapped_score(map, known, points, truth, 0.1, 0.5);
+  EXPECT_GT(mapped, plain + 0.05);
+  EXPECT_EQ(mapped_score(map, known, points, truth, 0.1, 0.0), plain);
+}
+
+TEST(MappedScore, OfAPoseBeyondAllThatIsKnownIsTheUnmappedOne) {
+  Random random(8);
+  const OccupancyGrid map = test::drawn(test::room(), test::square_around({}, 6.0));
+  const PointSet points = seen_from(test::room(), {}, 0.01, random);
+  EXPECT_DOUBLE_EQ(mapped_score(map, WallField(map), points, {500, 0, 0}, 0.1, 0.56), 0.56);
+  EXPECT_EQ(mapped_score(map, WallField(map), {}, {}, 0.1, 0.56), 0.0);
+}
+
 }  // namespace
 }  // namespace mstsl

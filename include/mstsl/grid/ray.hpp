@@ -83,4 +83,10 @@ struct Crossing {
 /// is millions of cells away, is outside.
 Crossing crosses(const OccupancyGrid& grid, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m);
 
+/// Whether a beam that ends at `to_m` ends where the map ends: just before the end or `slack_m` behind it
+/// lies what the map does not know, and no wall on the way there. Such a beam neither fits the map nor
+/// contradicts it.
+bool ends_beyond(const OccupancyGrid& grid, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
+                 double slack_m);
+
 }  // namespace mstsl

@@ -40,4 +40,9 @@ WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, cons
 double wall_score(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
                   double sigma_m);
 
+/// The same, but points of which the map cannot tell, because the laser saw them at or beyond the map's edge
+/// (ends_beyond, within `sigma_m`), score at least `unmapped`.
+double mapped_score(const OccupancyGrid& occupancy, const WallField& walls, const PointSet& points_base_m,
+                    const Pose2& map_T_base, double sigma_m, double unmapped);
+
 }  // namespace mstsl

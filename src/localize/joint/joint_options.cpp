@@ -32,7 +32,6 @@ std::optional<Error> not_positive(const JointOptions& o) {
                                     {"field.scale_length_m", field.scale_length_m},
                                     {"scan.new_after_m", o.bank.scan.new_after_m},
                                     {"scan.sudden_after_m", o.bank.scan.sudden_after_m},
-                                    {"scan.sigma_m", o.bank.scan.sigma_m},
                                     {"lost_every_m", o.bank.lost_every_m}})
     if (!(value > 0.0)) return Error(fmt::format("{} is {}; it must be more than 0", name, value));
   return std::nullopt;

@@ -111,6 +111,14 @@ void ModeBank::weigh_by_field(const std::vector<Station>& stations) {
   });
 }
 
+double ModeBank::evidence_score(const PointSet& points, const Pose2& map_T_base) const {
+  const OccupancyGrid& occupancy = maps_->both->occupancy;
+  // A scan that sees nothing but what the map does not know says as much for a mode as for "none of these".
+  const double unmapped = options_.scan.elsewhere_score - options_.scan.tolerance;
+  return standing(occupancy, map_T_base) *
+         mapped_score(occupancy, *maps_->walls, points, map_T_base, options_.fit.sigma_m, unmapped);
+}
+
 std::vector<double> ModeBank::fit_all(const PointSet& points) {
   std::vector<double> scores(modes_.size());
   constexpr std::size_t kChunk = 64;
@@ -119,7 +127,7 @@ std::vector<double> ModeBank::fit_all(const PointSet& points) {
       const WallFit fit = fit_to_walls(*maps_->walls, points,
                                        {modes_[i].map_T_base, modes_[i].pose_covariance()}, options_.fit);
       update_by_scan(modes_[i], fit);
-      scores[i] = fit.score * standing(maps_->both->occupancy, fit.map_T_base);
+      scores[i] = evidence_score(points, fit.map_T_base);
       if (modes_.size() <= options_.few && i < kSearched && scores[i] < options_.search_below)
         search_around(modes_[i], scores[i], points);
     }
@@ -130,7 +138,7 @@ std::vector<double> ModeBank::fit_all(const PointSet& points) {
 void ModeBank::search_around(Mode& mode, double& score, const PointSet& points) const {
   const Surroundings around;
   const WallFit best = fit_around(*maps_->walls, points, mode.map_T_base, around, options_.fit);
-  const double found = best.score * standing(maps_->both->occupancy, best.map_T_base);
+  const double found = evidence_score(points, best.map_T_base);
   if (found < score + options_.search_gain) return;
   score = found;
   reseat(mode, best, around.spread(), 1.0);

@@ -27,7 +27,6 @@ struct ScanEvidence {
   double tolerance = 0.06;
   /// What a scan scores at a place that is not on the map or was rebuilt.
   double elsewhere_score = 0.62;
-  double sigma_m = 0.10;
   double spacing_m = 0.25;
   std::size_t max_points = 80;
 };
@@ -90,6 +89,7 @@ class ModeBank {
   void move(const Step& step);
   void weigh_by_field(const std::vector<Station>& stations);
   void weigh_by_scan(const PointSet& points_base_m);
+  double evidence_score(const PointSet& points_base_m, const Pose2& map_T_base) const;
   std::vector<double> fit_all(const PointSet& points_base_m);
   void search_around(Mode& mode, double& score, const PointSet& points_base_m) const;
   void leak(const Step& step);
