@@ -10,7 +10,9 @@
 
 #include "mstsl/eval/hard_protocol.hpp"
 #include "mstsl/eval/hard_report.hpp"
+#include "mstsl/eval/hard_trace.hpp"
 #include "mstsl/io/atomic_file.hpp"
+#include "mstsl/report/page.hpp"
 #include "mstsl/sim/world.hpp"
 
 #include "interrupt.hpp"
@@ -56,6 +58,19 @@ HardProtocolOptions options_of(const Session& session, const HardWish& wish, int
   return options;
 }
 
+/// The page that shows it all, with the runs worth looking at driven once more.
+Result<std::string> page_of(const HardProtocolOptions& options, const HardWish& wish,
+                            const std::vector<HardRecord>& records, const HardHead& head) {
+  auto runs = trace_hard_runs(options, worth_looking_at(records, options.methods, wish.replays));
+  if (!runs) return runs.error();
+  report::Page page;
+  page.title = fmt::format("Hard protocol, {}: {} runs", wish.set, records.size());
+  page.subtitle = fmt::format("{}, commit {}", records.empty() ? "" : records.front().options, head.commit);
+  page.summary_json = report::hard_summary(records, head);
+  page.runs = std::move(runs).value();
+  return report::html(page);
+}
+
 }  // namespace
 
 void add_hard_options(CLI::App& command, HardWish& wish) {
@@ -94,6 +109,12 @@ void add_hard_options(CLI::App& command, HardWish& wish) {
       ->check(CLI::Range(0.5, 100.0))
       ->capture_default_str()
       ->group(group);
+  command
+      .add_option("--replays", wish.replays,
+                  "Runs to be looked at in the report: one a world, and what failed")
+      ->check(CLI::Range(0, 200))
+      ->capture_default_str()
+      ->group(group);
   command.add_option("--beams", wish.beams, "Beams of a scan")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str()
@@ -111,19 +132,22 @@ Result<Exit> bench_hard(const Session& session, const HardWish& wish, int runs,
   };
   const auto records = run_hard_protocol(options);
   if (!records) return records.error();
-  bar.reset();
   const HardHead head{MSTSL_COMMIT, options.build, options.seed, peak_memory_mb()};
+  bar.emplace("replays", session.quiet);
+  const auto page = page_of(options, wish, *records, head);
+  if (!page) return page.error();
+  bar.reset();
   const std::string text = hard_text(*records), json = hard_json(*records, head);
-  for (const auto& [name, content] :
-       {std::pair{fmt::format("table_{}.txt", wish.set), text},
-        {fmt::format("results_{}.json", wish.set), json},
-        {fmt::format("cost_{}.json", wish.set), hard_cost_json(*records, head)}})
+  for (const auto& [name, content] : {std::pair{fmt::format("table_{}.txt", wish.set), text},
+                                      {fmt::format("results_{}.json", wish.set), json},
+                                      {fmt::format("cost_{}.json", wish.set), hard_cost_json(*records, head)},
+                                      {fmt::format("report_{}.html", wish.set), *page}})
     if (const Result<void> written = io::write_file(folder / name, content); !written) return written.error();
   if (session.json)
     fmt::print("{}", json);
   else if (!session.quiet)
-    fmt::print("{}\n{}: table_{}.txt, results_{}.json, cost_{}.json, runs.jsonl\n", text, folder.string(),
-               wish.set, wish.set, wish.set);
+    fmt::print("{}\n{}: report_{}.html, table_{}.txt, results_{}.json, cost_{}.json, runs.jsonl\n", text,
+               folder.string(), wish.set, wish.set, wish.set, wish.set);
   return Exit::kDone;
 }
 

@@ -17,11 +17,12 @@ struct HardWish {
   std::string set = "fix";
   int buildings = 1, beams = 541;
   double length_m = 14.0, scan_rate_hz = 10.0;
+  std::size_t replays = 12;
 };
 
 void add_hard_options(CLI::App& command, HardWish& wish);
 
-/// Runs it and writes the table, results.json and cost.json into `folder`.
+/// Runs it and writes report, table, results and cost into `folder`.
 Result<Exit> bench_hard(const Session& session, const HardWish& wish, int runs,
                         const std::filesystem::path& folder);
 

@@ -24,6 +24,7 @@
 #include "output_paths.hpp"
 #include "progress.hpp"
 #include "run_picture.hpp"
+#include "run_report.hpp"
 #include "session.hpp"
 #include "topic_options.hpp"
 
@@ -40,7 +41,7 @@ struct Wish {
   double localized_from = JointOptions{}.localized_from;
   fs::path output;
   std::optional<fs::path> tum;
-  std::optional<fs::path> picture, truth;
+  std::optional<fs::path> picture, report, truth;
   std::optional<fs::path> calibration;
   std::vector<fs::path> logs;
   io::PlayOptions play;
@@ -167,7 +168,7 @@ std::optional<Error> overwritten(const Wish& wish) {
   inputs.insert(inputs.end(), {wish.map, wish.field});
   if (wish.calibration) inputs.push_back(*wish.calibration);
   if (wish.truth) inputs.push_back(*wish.truth);
-  for (const auto& output : {wish.tum, wish.picture})
+  for (const auto& output : {wish.tum, wish.picture, wish.report})
     if (output) outputs.push_back(*output);
   return overwritten_input(outputs, inputs);
 }
@@ -184,14 +185,17 @@ Result<Exit> localize(const Session& session, const Wish& wish) {
   if (!output) return output.error();
 
   std::optional<RunLoop> loop;
+  std::optional<RunReport> report_page;
   const auto on_header = [&](const io::RecordingHeader& header) {
     loop.emplace((*factory)(header.rig), [&](const Estimate& estimate) { output->write(estimate); });
+    if (wish.report) report_page.emplace(header.rig);
   };
   Progress progress("localizing", session.quiet);
   const auto span = extent(wish.logs);
   const auto on_event = [&](const SensorEvent& event) {
     if (!loop) return false;
     loop->observe(event);
+    if (report_page) report_page->observe(event);
     if (span) progress.show((stamp_of(event) - span->first) / span->second);
     return !interrupted() && !output->error;
   };
@@ -212,11 +216,12 @@ Result<Exit> localize(const Session& session, const Wish& wish) {
   if (interrupted())
     return Error(fmt::format("interrupted; {} holds the {} estimates made so far", wish.output.string(),
                              loop->counts().estimates));
-  if (wish.picture) {
-    const RunFiles files{wish.map, wish.field, wish.output, wish.truth};
-    if (auto done = write_run_picture(files, wish.logs.front().string(), *wish.picture); !done)
-      return done.error();
-  }
+  const RunFiles files{wish.map, wish.field, wish.output, wish.truth};
+  const std::string title = wish.logs.front().string();
+  if (wish.picture)
+    if (auto done = write_run_picture(files, title, *wish.picture); !done) return done.error();
+  if (report_page)
+    if (auto done = report_page->write(files, title, wish.method, *wish.report); !done) return done.error();
   print_summary(session, summary, loop->counts(), cpu_s() - before_s);
   return loop->counts().last_status == LocalizationStatus::kLocalized ? Exit::kDone : Exit::kNoFix;
 }
@@ -244,9 +249,12 @@ void add_localize(CLI::App& app, Session& session) {
       ->capture_default_str();
   command->add_option("-o,--output", wish->output, "Estimates, as JSON Lines")->required();
   command->add_option("--tum", wish->tum, "Also the trajectory, in the format that evo reads");
-  CLI::Option* picture = command->add_option(
-      "--picture", wish->picture, "Also a picture, PNG or SVG: the way on the map, with the field under it");
-  command->add_option("--truth", wish->truth, "The true way, to be drawn in the picture")->needs(picture);
+  command->add_option("--picture", wish->picture,
+                      "Also a picture, PNG or SVG: the way on the map, with the field under it");
+  command->add_option(
+      "--report", wish->report,
+      "Also a page, HTML, to look at the run again: scans, hypotheses and probability over time");
+  command->add_option("--truth", wish->truth, "The true way, to be shown in picture and report");
   command
       ->add_option("logs", wish->logs,
                    "MCAP, rosbag2 folder, ROS 1 bag or CARMEN log; several are one after the other")

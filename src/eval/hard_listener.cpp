@@ -101,8 +101,9 @@ double thread_cpu_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-HardListener::HardListener(AnyLocalizer localizer)
-    : loop_(std::move(localizer), [this](const Estimate& estimate) { estimates_.push_back(estimate); }) {}
+HardListener::HardListener(AnyLocalizer localizer, Traced traced)
+    : traced_(traced),
+      loop_(std::move(localizer), [this](const Estimate& estimate) { estimates_.push_back(estimate); }) {}
 
 void HardListener::observe(const SensorEvent& event) {
   const double before = thread_cpu_ms();
@@ -113,7 +114,7 @@ void HardListener::observe(const SensorEvent& event) {
   since_scan_ms_ += spent;
   if (estimates_.size() == had) return;  // passed over: its cost counts with the next scan that is not
   (estimates_.back().map_T_base ? tracking_ : searching_).add(std::exchange(since_scan_ms_, 0.0));
-  estimates_.back().hypotheses = {};  // a long run's would fill the memory
+  if (traced_ == Traced::kNo) estimates_.back().hypotheses = {};
 }
 
 HardRecord HardListener::record(const Trajectory& truth, std::optional<Stamp> set_down) const {

@@ -11,10 +11,13 @@ namespace mstsl {
 /// CPU time of this thread, ms.
 double thread_cpu_ms();
 
+/// Whether everything that is to be seen of a run is kept. A long run's hypotheses would fill the memory.
+enum class Traced { kNo, kYes };
+
 /// One method listening to a run: its estimates and what they cost.
 class HardListener {
  public:
-  explicit HardListener(AnyLocalizer localizer);
+  explicit HardListener(AnyLocalizer localizer, Traced traced = Traced::kNo);
   HardListener(const HardListener&) = delete;
   HardListener& operator=(const HardListener&) = delete;
   void observe(const SensorEvent& event);
@@ -25,6 +28,7 @@ class HardListener {
   HardRecord record(const Trajectory& truth, std::optional<Stamp> set_down) const;
 
  private:
+  Traced traced_;
   std::vector<Estimate> estimates_;
   RunLoop loop_;
   double cpu_ms_ = 0.0, since_scan_ms_ = 0.0;

@@ -9,17 +9,11 @@
 #include <fmt/ranges.h>
 
 #include "hard_run.hpp"
+#include "hard_site.hpp"
 #include "hard_store.hpp"
 
 namespace mstsl {
 namespace {
-
-/// A random stream that belongs to a name (FNV-1a), so that a case is the same whatever other cases are run.
-std::uint64_t stream_of(std::string_view name) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
-}
 
 /// One start, and the methods that have not heard it yet.
 struct Task {
@@ -35,17 +29,6 @@ struct Group {
   SurveyKind kind;
   std::vector<Task> tasks;
 };
-
-HardKey key_of(const HardProtocolOptions& options, std::string_view world, std::string_view disturbance,
-               std::string_view method, int run) {
-  return {std::string(to_string(options.set)), std::string(world), std::string(disturbance),
-          std::string(method), run};
-}
-
-std::string text_of(const HardProtocolOptions& options) {
-  return fmt::format("seed {} length_m {} buildings {} scan_rate_hz {} beams {}", options.seed,
-                     options.length_m, options.buildings, options.scan_rate_hz, options.beams);
-}
 
 std::vector<Group> groups_of(const HardProtocolOptions& options, const HardStore& store) {
   std::vector<Group> groups;
@@ -133,43 +116,23 @@ class Work {
   std::optional<Error> error_;
 };
 
-Result<std::vector<LocalizerFactory>> factories_for(const std::vector<std::string>& names,
-                                                    const HardBuilding& building, MethodOptions options) {
-  options.threads = {1};  // the runs share out the cores; a method's CPU time is its thread's
-  std::vector<LocalizerFactory> factories;
-  for (const std::string& name : names) {
-    auto factory = make_method(name, building.maps, options);
-    if (!factory) return factory.error();
-    factories.push_back(std::move(factory).value());
-  }
-  return factories;
-}
-
 void run_group(const Group& group, const HardProtocolOptions& options, Work& work) {
-  const Random random = Random(options.seed).fork(stream_of(group.world));
-  const auto number = static_cast<std::uint64_t>(group.building);
   work.tell("survey and map");
-  const Result<HardBuilding> building = make_building(
-      group.world, group.kind, random.fork(stream_of("building")).fork(number), options.folder,
-      fmt::format("map_{}_{}_{}_seed{}", group.world, group.building, group.kind.name(), options.seed),
-      options.threads);
-  if (!building) return work.fail(building.error());
-  const auto factories = factories_for(options.methods, *building, options.method_options);
-  if (!factories) return work.fail(factories.error());
-  const Random runs = random.fork(stream_of(to_string(options.set)));
+  const Result<HardSite> site = make_site(options, group.world, group.building, group.kind);
+  if (!site) return work.fail(site.error());
   parallel_for(group.tasks.size(), options.threads, [&](std::size_t i) {
     if (work.stopped()) return;
     const Task& task = group.tasks[i];
     std::vector<LocalizerFactory> missing;
     for (const std::string& name : task.missing)
       for (std::size_t m = 0; m < options.methods.size(); ++m)
-        if (options.methods[m] == name) missing.push_back((*factories)[m]);
-    auto records = drive_hard_run(*building, missing, task.disturbance, options,
-                                  runs.fork(static_cast<std::uint64_t>(task.run)));
-    if (!records) return work.fail(records.error());
-    for (std::size_t m = 0; m < records->size(); ++m)
-      (*records)[m].key = key_of(options, group.world, task.disturbance.name, task.missing[m], task.run);
-    work.finish(std::move(records).value());
+        if (options.methods[m] == name) missing.push_back(site->methods[m]);
+    auto drive = drive_hard_run(site->building, missing, task.disturbance, options,
+                                site->runs.fork(static_cast<std::uint64_t>(task.run)));
+    if (!drive) return work.fail(drive.error());
+    for (std::size_t m = 0; m < drive->records.size(); ++m)
+      drive->records[m].key = key_of(options, group.world, task.disturbance.name, task.missing[m], task.run);
+    work.finish(std::move(drive->records));
   });
 }
 

@@ -62,12 +62,14 @@ double parallel(double yaw_rad, double axis_rad) {
 class Stage {
  public:
   Stage(const HardBuilding& building, const sim::World& today, const sim::RobotOptions& robot,
-        const Disturbance& disturbance, std::deque<HardListener>& listeners, const Random& random)
+        const Disturbance& disturbance, std::deque<HardListener>& listeners, ScanRecorder* scans,
+        const Random& random)
       : today_(today),
         robot_(robot),
         field_(weakened(today, building.steel_share)),
         with_crowd_(disturbance.people),
         listeners_(listeners),
+        scans_(scans),
         random_(random) {}
 
   void drive(const sim::Route& route, Stamp start, std::uint64_t part) {
@@ -108,6 +110,7 @@ class Stage {
 
   void hand_on(const SensorEvent& event) {
     for (HardListener& listener : listeners_) listener.observe(event);
+    if (scans_ != nullptr) scans_->observe(event);
   }
 
   const sim::World& today_;
@@ -115,6 +118,7 @@ class Stage {
   sim::FieldSource field_;
   bool with_crowd_;
   std::deque<HardListener>& listeners_;
+  ScanRecorder* scans_;  ///< nullptr: nobody looks
   Random random_;
   std::optional<Crowd> crowd_;
   Trajectory truth_;
@@ -123,10 +127,9 @@ class Stage {
 
 }  // namespace
 
-Result<std::vector<HardRecord>> drive_hard_run(const HardBuilding& building,
-                                               const std::vector<LocalizerFactory>& methods,
-                                               const Disturbance& disturbance,
-                                               const HardProtocolOptions& options, const Random& random) {
+Result<HardDrive> drive_hard_run(const HardBuilding& building, const std::vector<LocalizerFactory>& methods,
+                                 const Disturbance& disturbance, const HardProtocolOptions& options,
+                                 const Random& random, Traced traced) {
   const double before_ms = thread_cpu_ms();
   const sim::World today = day_of(building.surveyed, disturbance, random.fork(kDay));
   const sim::RobotOptions robot =
@@ -139,8 +142,10 @@ Result<std::vector<HardRecord>> drive_hard_run(const HardBuilding& building,
   if (!disturbance.heading) route->start_yaw_rad = parallel(route->start_yaw_rad, today.plan().axis_yaw_rad);
 
   std::deque<HardListener> listeners;
-  for (const LocalizerFactory& method : methods) listeners.emplace_back(method(robot.rig));
-  Stage stage(building, today, robot, disturbance, listeners, random);
+  for (const LocalizerFactory& method : methods) listeners.emplace_back(method(robot.rig), traced);
+  std::optional<ScanRecorder> scans;
+  if (traced == Traced::kYes) scans.emplace(robot.rig);
+  Stage stage(building, today, robot, disturbance, listeners, scans ? &*scans : nullptr, random);
   stage.drive(*route, Stamp{}, 0);
   std::optional<Stamp> set_down;
   if (options.set == CaseSet::kKidnap) {
@@ -152,15 +157,20 @@ Result<std::vector<HardRecord>> drive_hard_run(const HardBuilding& building,
     stage.drive(*after, *set_down, 1);
   }
 
-  std::vector<HardRecord> records;
+  HardDrive drive;
   double methods_ms = 0.0;
   for (const HardListener& listener : listeners) {
-    records.push_back(listener.record(stage.truth(), set_down));
+    drive.records.push_back(listener.record(stage.truth(), set_down));
     methods_ms += listener.cpu_ms();
+    if (scans) drive.trace.methods.push_back({"", listener.estimates()});
   }
   const double simulation_ms = thread_cpu_ms() - before_ms - methods_ms;
-  for (HardRecord& record : records) record.simulation_ms = simulation_ms;
-  return records;
+  for (HardRecord& record : drive.records) record.simulation_ms = simulation_ms;
+  if (scans) {
+    drive.trace.scans = scans->take();
+    drive.trace.truth = stage.truth();
+  }
+  return drive;
 }
 
 }  // namespace mstsl

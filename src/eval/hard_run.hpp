@@ -3,16 +3,23 @@
 #include <vector>
 
 #include "mstsl/eval/hard_protocol.hpp"
+#include "mstsl/eval/run_trace.hpp"
 
 #include "hard_building.hpp"
+#include "hard_listener.hpp"
 
 namespace mstsl {
 
-/// Drives one run through a building and lets every method hear it. The records' keys are the caller's.
-/// Errors: a building without a way of this length.
-Result<std::vector<HardRecord>> drive_hard_run(const HardBuilding& building,
-                                               const std::vector<LocalizerFactory>& methods,
-                                               const Disturbance& disturbance,
-                                               const HardProtocolOptions& options, const Random& random);
+/// What one run gave: a record for each method, and everything there was to see, if that was asked for.
+struct HardDrive {
+  std::vector<HardRecord> records;  ///< their keys are the caller's
+  RunTrace trace;                   ///< without names and place
+};
+
+/// Drives one run through a building and lets every method hear it. Errors: a building without a way of this
+/// length.
+Result<HardDrive> drive_hard_run(const HardBuilding& building, const std::vector<LocalizerFactory>& methods,
+                                 const Disturbance& disturbance, const HardProtocolOptions& options,
+                                 const Random& random, Traced traced = Traced::kNo);
 
 }  // namespace mstsl
