@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "mstsl/eval/hard_report.hpp"
+#include "mstsl/eval/hard_trace.hpp"
 
 #include "eval/hard_building.hpp"
 #include "eval/hard_crowd.hpp"
@@ -166,6 +167,24 @@ std::string without_cost(HardRecord record) {
   return to_line(record);
 }
 
+/// Runs that are driven again to be looked at are the very ones that were recorded.
+void expect_same_runs(const HardProtocolOptions& options, const std::vector<HardRecord>& records) {
+  const auto starts = worth_looking_at(records, options.methods, 1);
+  const auto traces = must(trace_hard_runs(options, starts));
+  ASSERT_EQ(traces.size(), 1u);
+  const auto record = std::ranges::find_if(records, [&](const HardRecord& r) {
+    return r.key.disturbance == starts[0].disturbance && r.key.run == starts[0].run;
+  });
+  const RunTrace& trace = traces.front();
+  ASSERT_EQ(trace.methods.size(), options.methods.size());
+  EXPECT_EQ(trace.methods[0].name, options.methods[0]);
+  const RunEvaluation run = evaluate_run(trace.methods[0].estimates, trace.truth);
+  EXPECT_EQ(run.estimates, record->estimates);
+  EXPECT_EQ(run.answers.size(), record->answers);
+  EXPECT_EQ(run.correct_distance_m, record->correct_distance_m);
+  EXPECT_GT(trace.scans.size(), 5u);
+}
+
 TEST(HardProtocol, KeepsRunsAndIsTheSameAtAnyNumberOfThreads) {
   const fs::path folder = fs::temp_directory_path() / "mstsl_hard_protocol_test";
   fs::remove_all(folder);
@@ -189,6 +208,7 @@ TEST(HardProtocol, KeepsRunsAndIsTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(lines(), 4);
   EXPECT_EQ(must(run_hard_protocol(options)).size(), 4u);
   EXPECT_EQ(lines(), 4) << "what is finished is not run again";
+  expect_same_runs(options, first);
 
   { std::ofstream(folder / "runs.jsonl", std::ios::app) << "{\"set\": \"cut o"; }
   options.build = "another", options.threads = {1};
@@ -203,7 +223,51 @@ TEST(HardProtocol, KeepsRunsAndIsTheSameAtAnyNumberOfThreads) {
   fs::remove_all(folder);
 }
 
+HardRecord short_record(const std::string& world, const std::string& disturbance, int run, bool right) {
+  HardRecord record;
+  record.key = {"fix", world, disturbance, "joint", run};
+  record.first = JudgedAnswer{};
+  record.first->right = right;
+  if (right) record.correct_distance_m = 1.0;
+  return record;
+}
+
+TEST(HardTrace, LooksAtEachWorldAndAtWhatWentWrong) {
+  std::vector<HardRecord> records;
+  for (const char* world : {"loop", "office"})
+    for (const char* disturbance : {"none", "all"})
+      for (int run = 0; run < 3; ++run) records.push_back(short_record(world, disturbance, run, run != 2));
+  records.front().false_alarms = 1;
+  const std::vector<HardStart> starts = worth_looking_at(records, {"joint"}, 5);
+  const std::vector<HardStart> expected{
+      {"loop", "all", 0}, {"office", "all", 0}, {"loop", "none", 0}, {"loop", "none", 2}, {"loop", "all", 2}};
+  EXPECT_EQ(starts, expected);
+  EXPECT_EQ(worth_looking_at(records, {"joint"}, 1).size(), 1u);
+  EXPECT_TRUE(worth_looking_at({}, {"joint"}, 5).empty());
+}
+
+TEST(ScanRecorder, KeepsFewScansHoweverLongTheRun) {
+  ScanRecorder recorder(Rig{}, 50);
+  LaserScan scan;
+  scan.angle_increment_rad = 0.01;
+  scan.range_max_m = 10.0;
+  scan.ranges_m.assign(600, 3.0F);
+  for (int i = 0; i < 5000; ++i) {
+    scan.stamp = Stamp::from_seconds(0.1 * i);
+    recorder.observe(scan);
+  }
+  const std::vector<TracedScan> scans = recorder.take();
+  EXPECT_GE(scans.size(), 50u);
+  EXPECT_LT(scans.size(), 100u);
+  EXPECT_EQ(scans.front().stamp, Stamp::from_seconds(0.0));
+  EXPECT_GT(scans.back().stamp, Stamp::from_seconds(480.0));
+  for (std::size_t i = 1; i < scans.size(); ++i) EXPECT_GT(scans[i].stamp, scans[i - 1].stamp);
+  for (const TracedScan& kept : scans) EXPECT_LE(kept.points_base_m.size(), 90u);
+}
+
 TEST(HardProtocol, RefusesWhatIsNotThere) {
+  EXPECT_FALSE(trace_hard_runs({}, {{"atlantis", "none", 0}}));
+  EXPECT_FALSE(trace_hard_runs({}, {{"office", "rain", 0}}));
   HardProtocolOptions options;
   options.worlds = {"atlantis"};
   EXPECT_NE(run_hard_protocol(options).error().message().find("symmetric-loop"), std::string::npos);

@@ -6,7 +6,7 @@ import {join} from 'node:path';
 const ours = process.argv[2];
 for (const [mine, theirs] of [['uPlot.iife.min.js', 'dist/uPlot.iife.min.js'], ['uPlot.min.css', 'dist/uPlot.min.css'],
                               ['LICENSE', 'LICENSE']]) {
-  if (!readFileSync(join(ours, mine)).equals(readFileSync(join('node_modules/uplot', theirs)))) {
+  if (!readFileSync(join(ours, mine)).equals(readFileSync(new URL(`node_modules/uplot/${theirs}`, import.meta.url)))) {
     console.error(`${mine} differs from the package's ${theirs}`);
     process.exit(1);
   }
