@@ -15,6 +15,7 @@ FieldSampler::FieldSampler(const FieldMap& map) : geometry_(map.geometry), frame
       entries_[i] = {map.mean_uT[i], map.variance_uT2[i].cwiseMax(0.0f)};
   measure_spread(map);
   measure_length(map);
+  fall_back_on_spread();
 }
 
 void FieldSampler::measure_spread(const FieldMap& map) {
@@ -54,6 +55,18 @@ void FieldSampler::measure_length(const FieldMap& map) {
     ((1 + a) * std::exp(-a) < correlation ? low : high) = middle;
   }
   length_m_ = 0.5 * (low + high);
+}
+
+void FieldSampler::fall_back_on_spread() {
+  const Eigen::Array3f mean = mean_uT_.cast<float>().array(),
+                       most = spread_uT_.cast<float>().array().square();
+  for (Entry& entry : entries_) {
+    const Eigen::Array3f claimed = entry.variance_uT2.array();
+    // How much of what is known here is known without a map.
+    const Eigen::Array3f share = (claimed > most && most > 0.0F).select(1.0F - most / claimed, 0.0F);
+    entry.mean_uT = (entry.mean_uT.array() + share * (mean - entry.mean_uT.array())).matrix();
+    entry.variance_uT2 = (most > 0.0F).select(claimed.min(most), claimed).matrix();
+  }
 }
 
 FieldSampler::Sample FieldSampler::unknown() const {

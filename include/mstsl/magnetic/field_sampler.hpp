@@ -11,7 +11,10 @@
 namespace mstsl {
 
 /// The field map as a filter wants it: mean, variance and slope at any place, fast, and something everywhere:
-/// where the map says nothing, the mean of the whole map with the spread of the whole map as its variance.
+/// where the map says nothing, the mean of the whole map with the spread of the whole map as its variance. No
+/// cell is less sure than that: between lanes beside steel a map may claim 60 +- 50 uT in a building whose
+/// field is 50 +- 7 uT, and then the building is what counts, in the measure in which the map's variance is
+/// above its.
 class FieldSampler {
  public:
   explicit FieldSampler(const FieldMap& map);
@@ -40,6 +43,7 @@ class FieldSampler {
   };
   void measure_spread(const FieldMap& map);
   void measure_length(const FieldMap& map);
+  void fall_back_on_spread();
   Sample unknown() const;
 
   GridGeometry geometry_;

@@ -94,7 +94,7 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   // the claim stands, and only what it expects of a station is less.
   const double worse = std::max(1.0, mode.scale.factor()), better = std::min(1.0, mode.scale.factor());
   const Eigen::Vector3d error_uT2 = worse * e.error_variance_uT2;
-  const Eigen::Vector3d own_uT2 = model.error_own_share * error_uT2;
+  const Eigen::Vector3d own_uT2 = model.error_own_share * e.error_variance_uT2;
   const Eigen::Matrix3d noise =
       (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity() +
       base_R_map * own_uT2.asDiagonal() * base_R_map.transpose();
@@ -102,7 +102,7 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   // Where the map is good its error wanders on; where steel was moved it is anything, and goes on from there.
   Mode mapped = mode, changed = mode;
   let_wander(mapped.state, mapped.covariance, station.since_last_m, model.error_length_m,
-             (1.0 - model.error_own_share) * error_uT2);
+             error_uT2 - own_uT2);
   const Eigen::Vector3d anything = field.spread_uT().cwiseAbs2() + e.error_variance_uT2;
   if (mode.changed > 0.5)
     let_wander(changed.state, changed.covariance, station.since_last_m, field.length_m(), anything);
