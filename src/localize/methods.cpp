@@ -1,6 +1,5 @@
 #include "mstsl/localize/methods.hpp"
 
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -55,15 +54,43 @@ Result<LocalizerFactory> make_mag_filter_best(Maps maps, const MethodOptions& op
   return make_mag_filter(std::move(maps), best);
 }
 
+#ifdef MSTSL_HAS_MRPT
+Result<LocalizerFactory> make_mcl(Maps maps, const MethodOptions& options) {
+  return LocalizerFactory(
+      [maps, own = options.mcl](const Rig& rig) { return AnyLocalizer(Mcl(maps, rig, own)); });
+}
+
+/// What an expert sets for a start anywhere: enough particles to have some near the truth (MRPT's authors
+/// reckon with 280 per m2), beams believed for what they are, wheels for what they are, and doubt before an
+/// answer.
+Result<LocalizerFactory> make_mcl_best(Maps maps, const MethodOptions& options) {
+  MethodOptions best = options;
+  best.mcl.particles_per_m2 = 280.0;
+  best.mcl.kld_error = 0.01;
+  best.mcl.sigma_hit_m = 0.1;
+  best.mcl.hit_share = 0.8, best.mcl.random_share = 0.2;
+  best.mcl.alpha = 0.05;
+  return make_mcl(std::move(maps), best);
+}
+#endif
+
 struct Method {
   std::string_view name;
   Result<LocalizerFactory> (*make)(Maps, const MethodOptions&);
 };
 
-constexpr std::array kMethods{
-    Method{"two-step", make_two_step},       Method{"joint", make_joint},
-    Method{"global-scan", make_global_scan}, Method{"global-scan-best", make_global_scan_best},
-    Method{"mag-pf", make_mag_filter},       Method{"mag-pf-best", make_mag_filter_best}};
+const std::vector<Method> kMethods{
+    Method{"two-step", make_two_step},
+    Method{"joint", make_joint},
+    Method{"global-scan", make_global_scan},
+    Method{"global-scan-best", make_global_scan_best},
+    Method{"mag-pf", make_mag_filter},
+    Method{"mag-pf-best", make_mag_filter_best},
+#ifdef MSTSL_HAS_MRPT
+    Method{"mcl", make_mcl},
+    Method{"mcl-best", make_mcl_best},
+#endif
+};
 
 }  // namespace
 

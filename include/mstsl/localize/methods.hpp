@@ -9,6 +9,7 @@
 #include "mstsl/core/result.hpp"
 #include "mstsl/localize/baselines/global_scan.hpp"
 #include "mstsl/localize/baselines/mag_filter.hpp"
+#include "mstsl/localize/baselines/mcl.hpp"
 #include "mstsl/localize/joint/joint.hpp"
 #include "mstsl/localize/localization_maps.hpp"
 #include "mstsl/localize/localizer.hpp"
@@ -25,6 +26,7 @@ struct MethodOptions {
   JointOptions joint;
   GlobalScanOptions global_scan;
   MagFilterOptions mag_filter;
+  MclOptions mcl;
   Threads threads;
 };
 

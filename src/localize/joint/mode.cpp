@@ -26,6 +26,8 @@ struct Expected {
   Eigen::Vector3d without_map_error_uT;
   Observation by_state;
   Eigen::Vector3d error_variance_uT2;
+  double
+      unmapped;  ///< 0: the map tells the field here; 1: it knows no more than anybody who knows the building
 };
 
 Expected expect(const Mode& mode, const Station& station, const FieldSampler& field,
@@ -54,6 +56,7 @@ Expected expect(const Mode& mode, const Station& station, const FieldSampler& fi
           ? Eigen::Vector3d(claimed.cwiseMin(field.spread_uT().cwiseAbs2()).cwiseMax(here.variance_uT2) +
                             constant(square(model.map_error_floor_uT)))
           : here.variance_uT2;
+  e.unmapped = std::clamp(here.variance_uT2.sum() / field.spread_uT().squaredNorm(), 0.0, 1.0);
   return e;
 }
 
@@ -94,15 +97,16 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   // the claim stands, and only what it expects of a station is less.
   const double worse = std::max(1.0, mode.scale.factor()), better = std::min(1.0, mode.scale.factor());
   const Eigen::Vector3d error_uT2 = worse * e.error_variance_uT2;
-  const Eigen::Vector3d own_uT2 = model.error_own_share * e.error_variance_uT2;
+  // Where the map knows nothing its error is the field itself: as smooth, and changing as fast.
+  const Eigen::Vector3d own_uT2 = model.error_own_share * (1.0 - e.unmapped) * e.error_variance_uT2;
+  const double length_m = std::lerp(model.error_length_m, field.length_m(), e.unmapped);
   const Eigen::Matrix3d noise =
       (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity() +
       base_R_map * own_uT2.asDiagonal() * base_R_map.transpose();
 
   // Where the map is good its error wanders on; where steel was moved it is anything, and goes on from there.
   Mode mapped = mode, changed = mode;
-  let_wander(mapped.state, mapped.covariance, station.since_last_m, model.error_length_m,
-             error_uT2 - own_uT2);
+  let_wander(mapped.state, mapped.covariance, station.since_last_m, length_m, error_uT2 - own_uT2);
   const Eigen::Vector3d anything = field.spread_uT().cwiseAbs2() + e.error_variance_uT2;
   if (mode.changed > 0.5)
     let_wander(changed.state, changed.covariance, station.since_last_m, field.length_m(), anything);

@@ -61,7 +61,8 @@ struct FieldModel {
   /// m and 0.2 at 1 m, and this one is 0.83 and 0.20.
   double error_length_m = 0.58;
   /// Part of that error's variance which is each station's own: where a map is off by much it is so within
-  /// centimetres, and a pose is not known to centimetres. 0.06 to 0.2 on held-out lanes.
+  /// centimetres, and a pose is not known to centimetres. 0.06 to 0.2 on held-out lanes. None where the map
+  /// knows nothing: the error is then the field.
   double error_own_share = 0.12;
   /// Steel that was moved makes the map useless for a while: how often on the way that begins, one in so many
   /// metres, and for how long it lasts: the length of a parked car, half that of a rack.
