@@ -70,6 +70,8 @@ Result<LocalizerFactory> make_mcl_best(Maps maps, const MethodOptions& options) 
   best.mcl.sigma_hit_m = 0.1;
   best.mcl.hit_share = 0.8, best.mcl.random_share = 0.2;
   best.mcl.alpha = 0.05;
+  best.mcl.temper = 0.03;
+  best.mcl.answer_after_m = 1.0;
   return make_mcl(std::move(maps), best);
 }
 #endif

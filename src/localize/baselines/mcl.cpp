@@ -79,10 +79,11 @@ mrpt::obs::CObservation2DRangeScan::Ptr observation_of(const LaserScan& scan, co
 
 mrpt::obs::CActionRobotMovement2D movement_of(const Pose2& last_T_base, double alpha) {
   mrpt::obs::CActionRobotMovement2D::TMotionModelOptions model;
-  model.modelSelection = mrpt::obs::CActionRobotMovement2D::mmThrun;
-  const auto a = static_cast<float>(alpha);
-  model.thrunModel.alfa1_rot_rot = a, model.thrunModel.alfa2_rot_trans = a;
-  model.thrunModel.alfa3_trans_trans = a, model.thrunModel.alfa4_trans_rot = a;
+  // MRPT's other model (Thrun's) takes a turn on the spot for two turns of 180 deg, with the noise of both.
+  model.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
+  model.gaussianModel.a1 = alpha;  // m/m
+  model.gaussianModel.a3 = alpha;  // rad/m
+  model.gaussianModel.a4 = alpha;  // rad/rad
   mrpt::obs::CActionRobotMovement2D movement;
   movement.computeFromOdometry({last_T_base.x, last_T_base.y, last_T_base.yaw}, model);
   return movement;
@@ -108,6 +109,7 @@ struct Mcl::State {
   std::optional<Stamp> last_scan;
   std::optional<TimedPose> last_step;
   double travelled_m = 0.0;
+  std::optional<double> narrow_since_m;  ///< since when (m travelled) its particles are close together
   Pose2 mean;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity() * 1e6;
   double probability = 0.0;
@@ -126,6 +128,7 @@ struct Mcl::State {
     filter.m_options.PF_algorithm = CParticleFilter::pfStandardProposal;
     filter.m_options.resamplingMethod =
         CParticleFilter::prMultinomial;  // the one that may change their number
+    filter.m_options.powFactor = options.temper;
     particles.options.metricMap = map;
     auto& kld = particles.options.KLD_params;
     kld.KLD_binSize_XY = 0.5, kld.KLD_binSize_PHI = radians(10.0);
@@ -171,13 +174,14 @@ struct Mcl::State {
       all += weight, near += close ? weight : 0.0;
     }
     probability = all > 0.0 ? near / all : 0.0;
+    const bool narrow = std::sqrt(covariance.topLeftCorner<2, 2>().trace() / 2) <= options.answer_below_m &&
+                        std::sqrt(covariance(2, 2)) <= options.answer_below_rad;
+    if (!narrow) narrow_since_m.reset();
+    if (narrow && !narrow_since_m) narrow_since_m = travelled_m;
     was_localized = was_localized || converged();
   }
 
-  bool converged() const {
-    return updates > 0 && std::sqrt(covariance.topLeftCorner<2, 2>().trace() / 2) <= options.answer_below_m &&
-           std::sqrt(covariance(2, 2)) <= options.answer_below_rad;
-  }
+  bool converged() const { return narrow_since_m && travelled_m - *narrow_since_m >= options.answer_after_m; }
 };
 
 Mcl::Mcl(std::shared_ptr<const LocalizationMaps> maps, const Rig& rig, const MclOptions& options)

@@ -22,14 +22,18 @@ struct MclOptions {
   std::size_t beams = 60;
   double sigma_hit_m = 0.2;
   double hit_share = 0.5, random_share = 0.5;
+  /// Power that a scan's likelihood, the product of its beams', is taken to. AMCL adds the cubes of its
+  /// beams' likelihoods, so that a scan that fits half as well again is half as likely again: about this.
+  double temper = 0.02;
   double update_every_m = 0.25;
   double update_every_rad = 0.2;
-  /// Noise of the wheels: alpha1 to alpha4 of Thrun, Burgard & Fox (2005), table 5.6, squared.
+  /// Noise of the wheels, AMCL's alpha1 to alpha4: m/m, rad/m and rad/rad.
   double alpha = 0.2;
   /// It has an answer when its particles' standard deviation is below this; AMCL itself publishes their mean
   /// from the first scan on.
   double answer_below_m = 0.25;
   double answer_below_rad = radians(10.0);
+  double answer_after_m = 0.0;  ///< and has been for so much way
   OdometryTrackOptions odometry;
   std::uint64_t seed = 1;
 };
