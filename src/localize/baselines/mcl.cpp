@@ -144,7 +144,8 @@ struct Mcl::State {
 
   /// A run draws the same numbers whatever other runs draw at the same time. Expects the generator locked.
   void reseed() {
-    mrpt::random::getRandomGenerator().randomize(static_cast<std::uint32_t>(random.index(1u << 31)));
+    mrpt::random::getRandomGenerator() =
+        mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(random.index(1u << 31)));
   }
 
   void update(const LaserScan& scan, const Pose2& last_T_base) {
