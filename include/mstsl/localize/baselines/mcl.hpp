@@ -40,7 +40,7 @@ struct MclOptions {
 
 /// Baseline: AMCL's algorithm, adaptive Monte-Carlo localization (Fox 2003) from a uniform start, as MRPT's
 /// CMonteCarloLocalization2D implements it. It hears no field. Its "probability" is the share of its
-/// particles within 0.5 m and 10 deg of their mean. Only where MSTSL was built with MRPT.
+/// particles within 0.5 m and 10 deg of their mean. Only in a build with MSTSL_WITH_MRPT.
 class Mcl {
  public:
   Mcl(std::shared_ptr<const LocalizationMaps> maps, const Rig& rig, const MclOptions& options = {});
