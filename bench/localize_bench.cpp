@@ -146,7 +146,14 @@ void joint_drive(benchmark::State& state) {
   }
   report(state, costs, area_m2);
 }
-BENCHMARK(joint_drive)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
+BENCHMARK(joint_drive)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Arg(8)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1)
+    ->UseRealTime();
 
 void global_scan_drive(benchmark::State& state) {
   auto [occupancy, field] = repeated(drive(), 1);
@@ -175,7 +182,14 @@ void start_up(benchmark::State& state) {
   }
   state.counters["free_m2"] = free_m2(occupancy);
 }
-BENCHMARK(start_up)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
+BENCHMARK(start_up)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Arg(8)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace mstsl
