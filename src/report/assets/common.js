@@ -27,11 +27,13 @@ const plots = [];  // all plots, to be resized and recoloured
 function plot(id, xLabel, yLabel, series, data, more = {}) {
   const place = element(id);
   place.replaceChildren();
-  const axis = label => ({label, stroke: () => css('--ink'), grid: {stroke: () => css('--line')},
-                          ticks: {stroke: () => css('--line')}, size: 48});
+  // On a logarithmic axis only powers of ten are drawn.
+  const decades = more.y?.distr === 3 ? {filter: (u, splits) => splits.map(v => Number.isInteger(+Math.log10(v).toFixed(6)) ? v : null)} : {};
+  const axis = (label, shown) => ({label, stroke: () => css('--ink'), grid: {stroke: () => css('--line'), ...shown},
+                                   ticks: {stroke: () => css('--line'), ...shown}, size: 56, ...shown});
   const made = new uPlot({
     width: Math.max(280, place.clientWidth), height: 260, scales: {x: {time: false, ...more.x}, y: more.y ?? {}},
-    axes: [axis(xLabel), axis(yLabel)], cursor: more.cursor ?? {}, hooks: more.hooks ?? {},
+    axes: [axis(xLabel, {}), axis(yLabel, decades)], cursor: more.cursor ?? {}, hooks: more.hooks ?? {},
     series: [{label: xLabel, value: (u, v) => fixed(v, 2)},
              ...series.map(s => ({width: 2, value: (u, v) => fixed(v, 4), points: {show: false}, ...s}))],
   }, data, place);

@@ -6,8 +6,9 @@ const share = rate => rate.of === 0 ? null : rate.hits / rate.of;
 function showMethods(rows, costs) {
   const table = element('methods');
   const head = table.createTHead().insertRow();
-  ['Method', 'Runs', 'Right', 'Tight', 'Wrong claims', 'Way to the first right pose', 'Error after', 'False alarms',
-   'CPU a scan'].forEach(name => cell(head, name, '', 'col'));
+  const carried = rows.some(r => r.kidnap.noticed_within_3_m.of > 0), errors = rows.some(r => r.error_after_fix_m.count);
+  ['Method', 'Runs', 'Right', 'Tight', 'Wrong claims', 'Way to the first right pose', ...(errors ? ['Error after'] : []),
+   'False alarms', ...(carried ? ['Carrying noticed', 'Found again'] : []), 'CPU a scan'].forEach(name => cell(head, name, '', 'col'));
   const body = table.createTBody();
   for (const row of rows.filter(r => r.world === '*' && r.disturbance === '*')) {
     const cost = costs.find(c => c.method === row.method && c.world === '*' && c.disturbance === '*');
@@ -19,9 +20,14 @@ function showMethods(rows, costs) {
     const claims = row['first_wrong_at_0.999'];
     cell(line, `${claims.hits} of ${claims.of}`, interval(claims));
     cell(line, fixed(row.correct_distance_m.median, 1) + ' m', `95 %: ${fixed(row.correct_distance_m.p95, 1)} m`);
-    cell(line, row.error_after_fix_m.count ? fixed(100 * row.error_after_fix_m.median, 1) + ' cm' : '–',
-         row.error_after_fix_m.count ? `95 %: ${fixed(100 * row.error_after_fix_m.p95, 1)} cm` : '');
+    if (errors)
+      cell(line, row.error_after_fix_m.count ? fixed(100 * row.error_after_fix_m.median, 1) + ' cm' : '–',
+           row.error_after_fix_m.count ? `95 %: ${fixed(100 * row.error_after_fix_m.p95, 1)} cm` : '');
     cell(line, row.false_alarms, `in ${fixed(row.right_km, 1)} km`);
+    if (carried) {
+      cell(line, percent(share(row.kidnap.noticed_within_3_m)), `within 3 m; median ${fixed(row.kidnap.noticed_m.median, 1)} m`);
+      cell(line, percent(share(row.kidnap.recovered_within_10_m)), `within 10 m; median ${fixed(row.kidnap.recovered_m.median, 1)} m`);
+    }
     cell(line, cost ? fixed(cost.tracking.median_ms, 2) + ' ms' : '–', cost ? `searching, 95 %: ${fixed(cost.searching.p95_ms, 0)} ms` : '');
   }
 }
@@ -69,6 +75,7 @@ function showCurves(curves) {
        [...series.map(s => ({...s, spanGaps: true, points: {show: true, size: 7}})),
         {label: 'true', stroke: () => css('--quiet'), dash: [6, 4], width: 1}],
        uPlot.join([...points, [[0, 1], [0, 1]]]), {x: {range: [0, 1.01]}, y: {range: [0, 1.02]}});
+  element('figure-error').hidden = !curves.some(c => c.error_m.length);
   plot('plot-error', 'error (m)', 'share of poses', series,
        uPlot.join(curves.map(c => [c.error_m, c.error_m.map((_, i) => i / Math.max(1, c.error_m.length - 1))]))
          .map((values, k) => k === 0 ? values : filled(values)),
