@@ -6,7 +6,8 @@
 
 A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Reports are those of `mstsl bench --protocol
 paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of tools/real_results.sh (real/METHOD_SEED.json), of
-tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json).
+tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, and for
+several methods on the same events baselines/SEED.json).
 """
 import json
 import math
@@ -130,6 +131,26 @@ def hard_table():
                   "CLD median, 95 %", "error after the fix"], rows)
 
 
+def baselines_table():
+    """Methods on the same events: over everything, then the ordinary building and the symmetric ones."""
+    rows = []
+    for report in reports("baselines").values():
+        methods = list(dict.fromkeys(row["method"] for row in report["rows"]))
+        for method in methods:
+            of = {(r["world"], r["disturbance"]): r for r in report["rows"] if r["method"] == method}
+            worlds = [w for w, d in of if w != "*" and d == "*"]
+            symmetric = [of[w, "*"] for w in worlds if w != "office"]
+            whole = of["*", "*"]
+            answered, right = whole["answered"]["hits"], whole["success"]["hits"]
+            distance = whole["correct_distance_m"]
+            rows.append([method, str(whole["runs"]), rate([whole["success"]]), rate([of["office", "*"]["success"]]),
+                         rate([row["success"] for row in symmetric]), str(whole["runs"] - answered),
+                         str(answered - right),
+                         "-" if distance["median"] is None else f"{distance['median']:.1f}, {distance['p95']:.1f} m"])
+    return table(["method", "runs", "right within 10 m", "in the ordinary office", "in the symmetric ones", "silent",
+                  "first pose wrong, or late", "CLD median, 95 %"], rows)
+
+
 def kidnap_table():
     rows = []
     for report in reports("hard").values():
@@ -149,7 +170,7 @@ def kidnap_table():
 
 
 TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
-          "hard": hard_table, "kidnap": kidnap_table}
+          "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table}
 
 
 def main():
