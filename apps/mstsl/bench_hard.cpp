@@ -64,7 +64,9 @@ Result<std::string> page_of(const HardProtocolOptions& options, const HardWish& 
   auto runs = trace_hard_runs(options, worth_looking_at(records, options.methods, wish.replays));
   if (!runs) return runs.error();
   report::Page page;
-  page.title = fmt::format("Hard protocol, {}: {} runs", wish.set, records.size());
+  page.title = fmt::format("Hard protocol, {}: {} runs, {} method{}", wish.set,
+                           records.size() / options.methods.size(), options.methods.size(),
+                           options.methods.size() == 1 ? "" : "s");
   page.subtitle = fmt::format("{}, commit {}", records.empty() ? "" : records.front().options, head.commit);
   page.summary_json = report::hard_summary(records, head);
   page.runs = std::move(runs).value();
