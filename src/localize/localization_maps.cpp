@@ -55,13 +55,12 @@ Result<std::shared_ptr<const LocalizationMaps>> make_localization_maps(
         100.0 * on_free));
   FieldSampler field_cells(field);
   Lazy<MatchMap> walls([occupancy] { return MatchMap(occupancy); });
-  Lazy<FieldMatcher> matcher([field = std::make_shared<const FieldMap>(std::move(field)),
-                              threads = options.threads] {
-    return FieldMatcher::make(*field, {.threads = threads}).value();  // it has a value on a free cell
-  });
-  return std::make_shared<const LocalizationMaps>(LocalizationMaps{std::move(occupancy),
-                                                                   std::move(field_cells), *axis, on_free,
-                                                                   std::move(walls), std::move(matcher)});
+  Lazy<FieldMatcher> matcher(
+      [field = std::make_shared<const FieldMap>(std::move(field)), threads = options.threads] {
+        return FieldMatcher::make(*field, {.threads = threads}).value();  // it has a value on a free cell
+      });
+  return std::make_shared<const LocalizationMaps>(LocalizationMaps{
+      std::move(occupancy), std::move(field_cells), *axis, on_free, std::move(walls), std::move(matcher)});
 }
 
 }  // namespace mstsl

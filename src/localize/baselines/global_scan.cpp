@@ -46,8 +46,8 @@ std::optional<GlobalScan::Match> GlobalScan::match(const PointSet& points_base_m
   const PointSet points = at_most(thinned(points_base_m, options_.spacing_m), options_.max_points);
   PoseSearchOptions search;
   search.min_score = options_.min_score;
-  const auto found =
-      search_poses(maps_->walls->pyramid, points, SearchWindow::whole(maps_->walls->field.geometry()), search);
+  const auto found = search_poses(maps_->walls->pyramid, points,
+                                  SearchWindow::whole(maps_->walls->field.geometry()), search);
   if (found.empty()) return std::nullopt;
   // The lattice's cells are 5 cm; the prior is far wider and leaves the word to the scan.
   constexpr double kWide_m = 0.2, kWide_rad = 0.1;

@@ -88,8 +88,7 @@ void MagFilter::weigh(const Eigen::Vector3d& base_field_uT) {
     const Eigen::Vector3d off = turned_by(pose.yaw) * base_field_uT - sample.mean_uT;
     const Eigen::Array3d variance = sample.variance_uT2.array() + options_.sigma_uT * options_.sigma_uT;
     logs[i] = -0.5 * options_.temper * (off.array().square() / variance + variance.log()).sum();
-    if (state_at(maps_->occupancy, pose.position()) != CellState::kFree)
-      logs[i] += std::log(kOffGround);
+    if (state_at(maps_->occupancy, pose.position()) != CellState::kFree) logs[i] += std::log(kOffGround);
     logs[i] += std::log(std::max(particles_[i].weight, 1e-300));
   }
   const double best = *std::max_element(logs.begin(), logs.end());
