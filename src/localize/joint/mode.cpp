@@ -26,8 +26,7 @@ struct Expected {
   Eigen::Vector3d without_map_error_uT;
   Observation by_state;
   Eigen::Vector3d error_variance_uT2;
-  double
-      unmapped;  ///< 0: the map tells the field here; 1: it knows no more than anybody who knows the building
+  double unmapped;  ///< 0: the map tells the field here; 1: no more than who knows the building
 };
 
 Expected expect(const Mode& mode, const Station& station, const FieldSampler& field,
@@ -56,7 +55,9 @@ Expected expect(const Mode& mode, const Station& station, const FieldSampler& fi
           ? Eigen::Vector3d(claimed.cwiseMin(field.spread_uT().cwiseAbs2()).cwiseMax(here.variance_uT2) +
                             constant(square(model.map_error_floor_uT)))
           : here.variance_uT2;
-  e.unmapped = std::clamp(here.variance_uT2.sum() / field.spread_uT().squaredNorm(), 0.0, 1.0);
+  // In a building whose field is the same everywhere nothing is left to be mapped.
+  const double spread_uT2 = field.spread_uT().squaredNorm();
+  e.unmapped = spread_uT2 > 0.0 ? std::clamp(here.variance_uT2.sum() / spread_uT2, 0.0, 1.0) : 0.0;
   return e;
 }
 
