@@ -79,6 +79,24 @@ TEST(Mode, LearnsTheBiasOfTheMagnetometerFromATurn) {
   EXPECT_GT(least_eigenvalue(mode.covariance), 0.0);
 }
 
+TEST(Mode, StaysANumberInAFieldThatIsTheSameEverywhere) {
+  const test::HandMadeWorld world;
+  FieldMap field = world.field_map();
+  for (std::size_t i = 0; i < field.mean_uT.size(); ++i) {
+    field.mean_uT[i] = {20, 0, -40};
+    field.variance_uT2[i].setZero();
+    field.supported[i] = 1;
+  }
+  const FieldSampler same(field);
+  Mode mode = make_mode({6, 1, 0.3}, diagonal(0.1, 0.02), {});
+  for (int i = 0; i < 10; ++i) {
+    Station station = station_at(world, {6, 1, 0.3}, {0, 0, 0});
+    station.since_last_m = 0.12;
+    EXPECT_TRUE(std::isfinite(update_by_field(mode, station, same, {0, 0}, {})));
+  }
+  EXPECT_TRUE(mode.state.allFinite() && mode.covariance.allFinite());
+}
+
 TEST(Mode, IsDrawnToWhereTheFieldWasRead) {
   const test::HandMadeWorld world;
   const Pose2 truth{6, 1, 0.3};
