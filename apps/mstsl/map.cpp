@@ -2,6 +2,7 @@
 
 #include "calibration_option.hpp"
 #include "map_magnetic.hpp"
+#include "map_occupancy.hpp"
 #include "session.hpp"
 #include "topic_options.hpp"
 
@@ -76,12 +77,34 @@ void add_map_magnetic(CLI::App& map, Session& session) {
       [wish, &session] { session.work = [wish, &session] { return map_magnetic(session, *wish); }; });
 }
 
+void add_map_occupancy(CLI::App& map, Session& session) {
+  auto wish = std::make_shared<OccupancyMapWish>();
+  CLI::App* command = map.add_subcommand(
+      "occupancy", "Make an occupancy map from the logs of a drive through a building that is not known");
+  command->add_option("-o,--output", wish->output, "Occupancy map: a map_server yaml, its image beside it")
+      ->required();
+  command->add_option("--tum", wish->tum, "Also where the robot was, in TUM format");
+  command->add_flag("--no-field", wish->without_field, "Close loops by scans alone");
+  command->add_option("--resolution", wish->drawing.resolution_m, "Side of a cell, m")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  add_topic_options(*command, wish->play);
+  command
+      ->add_option("logs", wish->logs,
+                   "MCAP, rosbag2 folder, ROS 1 bag or CARMEN log; several are one drive, in this order")
+      ->required();
+  add_common_options(*command, session);
+  command->callback(
+      [wish, &session] { session.work = [wish, &session] { return map_occupancy(session, *wish); }; });
+}
+
 }  // namespace
 
 void add_map(CLI::App& app, Session& session) {
   CLI::App* map = app.add_subcommand("map", "Make maps from the logs of a survey");
   map->require_subcommand(1);
   add_map_magnetic(*map, session);
+  add_map_occupancy(*map, session);
 }
 
 }  // namespace mstsl::app

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mstsl/localize/motion.hpp"
+#include "mstsl/mapping/bent_track.hpp"
 #include "mstsl/scan/points.hpp"
 
 namespace mstsl {
@@ -155,21 +156,9 @@ SurveyTrack SurveyTracker::between_scans() const {
     track.worst_sd_m = std::max(track.worst_sd_m, std::sqrt(variance));
   }
   track.typical_sd_m = std::sqrt(track.typical_sd_m);
-  // Odometry between two scans, bent so that it ends where the second one was.
-  std::size_t next = 1;
-  for (const TimedPose& at : odometry_) {
-    while (next + 1 < nodes_.size() && nodes_[next].stamp < at.stamp) ++next;
-    const Node& a = nodes_[next - 1];
-    const Pose2 from_a = a.map_T_base * between(a.track_T_base, at.pose);
-    if (nodes_.size() < 2 || at.stamp < a.stamp) {
-      track.map_T_base.add(at.stamp, from_a);
-      continue;
-    }
-    const Node& b = nodes_[next];
-    const Vector3d off = difference(a.map_T_base * between(a.track_T_base, b.track_T_base), b.map_T_base);
-    const double share = std::clamp((at.stamp - a.stamp) / (b.stamp - a.stamp), 0.0, 1.0);
-    track.map_T_base.add(at.stamp, moved(from_a, share * off));
-  }
+  std::vector<TrackKnot> knots;
+  for (const Node& node : nodes_) knots.push_back({node.stamp, node.track_T_base, node.map_T_base});
+  track.map_T_base = bent_track(odometry_, knots);
   return track;
 }
 

@@ -10,8 +10,11 @@ Eigen::Matrix3d Surroundings::spread() const {
   return half.cwiseAbs2().asDiagonal();
 }
 
-WallFit fit_around(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
-                   const Surroundings& around, const FitOptions& options) {
+namespace {
+
+template <typename Walls>
+WallFit best_around(const Walls& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                    const Surroundings& around, const FitOptions& options) {
   const Eigen::Matrix3d spread = around.spread();
   std::optional<WallFit> best;
   for (int turn = -around.turns; turn <= around.turns; ++turn)
@@ -23,6 +26,18 @@ WallFit fit_around(const WallField& walls, const PointSet& points_base_m, const 
         if (!best || fit.score > best->score) best = fit;
       }
   return *best;
+}
+
+}  // namespace
+
+WallFit fit_around(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                   const Surroundings& around, const FitOptions& options) {
+  return best_around(walls, points_base_m, map_T_base, around, options);
+}
+
+WallFit fit_around(const ScannedWalls& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                   const Surroundings& around, const FitOptions& options) {
+  return best_around(walls, points_base_m, map_T_base, around, options);
 }
 
 }  // namespace mstsl

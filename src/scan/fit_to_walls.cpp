@@ -20,13 +20,14 @@ struct Sums {
   double weight = 0.0;
 };
 
-Sums sums_at(const WallField& walls, const PointSet& points, const Pose2& pose, double sigma_m) {
+template <typename Walls>
+Sums sums_at(const Walls& walls, const PointSet& points, const Pose2& pose, double sigma_m) {
   const Eigen::Matrix2d rotation = pose.rotation();
   const double per_square = 1.0 / (sigma_m * sigma_m);
   Sums sums;
   for (const Eigen::Vector2d& p : points) {
     const Eigen::Vector2d arm = rotation * p;
-    const WallField::Sample at = walls.sample(arm + pose.position());
+    const WallSample at = walls.sample(arm + pose.position());
     const double weight = std::exp(-0.5 * at.squared_m2 * per_square);
     sums.weight += weight;
     const double w = weight * per_square;
@@ -51,10 +52,34 @@ double reach_of(const PosePrior& prior) {
   return std::sqrt(0.5 * (variance.x() + variance.y()) + kArm_m * kArm_m * variance.z());
 }
 
-}  // namespace
+double squared_distance_m2(const WallField& walls, const Eigen::Vector2d& map_point_m) {
+  const double d = walls.distances().at(map_point_m);
+  return d * d;
+}
+double squared_distance_m2(const ScannedWalls& walls, const Eigen::Vector2d& map_point_m) {
+  return walls.sample(map_point_m).squared_m2;
+}
 
-WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, const PosePrior& prior,
-                     const FitOptions& options) {
+/// Mean over the points, seen from a pose, of what `score` says of their distance to the nearest wall and
+/// place.
+template <typename Walls, typename Score>
+double mean_score(const Walls& walls, const PointSet& points_base_m, const Pose2& map_T_base, double sigma_m,
+                  Score score) {
+  if (points_base_m.empty()) return 0.0;
+  const Eigen::Matrix2d rotation = map_T_base.rotation();
+  double sum = 0;
+  for (const Eigen::Vector2d& p : points_base_m) {
+    const Eigen::Vector2d at_m = rotation * p + map_T_base.position();
+    sum += score(std::exp(-0.5 * squared_distance_m2(walls, at_m) / (sigma_m * sigma_m)), at_m);
+  }
+  return sum / static_cast<double>(points_base_m.size());
+}
+
+double plain_score(double score, const Eigen::Vector2d&) { return score; }
+
+template <typename Walls>
+WallFit fitted(const Walls& walls, const PointSet& points_base_m, const PosePrior& prior,
+               const FitOptions& options) {
   WallFit fit{prior.mean};
   if (points_base_m.empty()) return fit;
   const Eigen::Matrix3d prior_information = prior.covariance.inverse();
@@ -77,34 +102,30 @@ WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, cons
   }
   if (width > 1.0) sums = sums_at(walls, points_base_m, fit.map_T_base, options.sigma_m);
   fit.information = sums.curvature / options.points_per_error;
-  fit.score = wall_score(walls, points_base_m, fit.map_T_base, options.sigma_m);
+  fit.score = mean_score(walls, points_base_m, fit.map_T_base, options.sigma_m, plain_score);
   return fit;
-}
-
-namespace {
-
-/// Mean over the points, seen from a pose, of what `score` says of their distance to the nearest wall and
-/// place.
-template <typename Score>
-double mean_score(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
-                  double sigma_m, Score score) {
-  if (points_base_m.empty()) return 0.0;
-  const Eigen::Matrix2d rotation = map_T_base.rotation();
-  double sum = 0;
-  for (const Eigen::Vector2d& p : points_base_m) {
-    const Eigen::Vector2d at_m = rotation * p + map_T_base.position();
-    const double d = walls.distances().at(at_m);
-    sum += score(std::exp(-0.5 * d * d / (sigma_m * sigma_m)), at_m);
-  }
-  return sum / static_cast<double>(points_base_m.size());
 }
 
 }  // namespace
 
+WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, const PosePrior& prior,
+                     const FitOptions& options) {
+  return fitted(walls, points_base_m, prior, options);
+}
+
+WallFit fit_to_walls(const ScannedWalls& walls, const PointSet& points_base_m, const PosePrior& prior,
+                     const FitOptions& options) {
+  return fitted(walls, points_base_m, prior, options);
+}
+
 double wall_score(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
                   double sigma_m) {
-  return mean_score(walls, points_base_m, map_T_base, sigma_m,
-                    [](double score, const Eigen::Vector2d&) { return score; });
+  return mean_score(walls, points_base_m, map_T_base, sigma_m, plain_score);
+}
+
+double wall_score(const ScannedWalls& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                  double sigma_m) {
+  return mean_score(walls, points_base_m, map_T_base, sigma_m, plain_score);
 }
 
 double mapped_score(const OccupancyGrid& occupancy, const WallField& walls, const PointSet& points_base_m,

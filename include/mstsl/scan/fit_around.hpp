@@ -20,5 +20,7 @@ struct Surroundings {
 /// The best of the fits that begin around a pose.
 WallFit fit_around(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
                    const Surroundings& surroundings, const FitOptions& options = {});
+WallFit fit_around(const ScannedWalls& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                   const Surroundings& surroundings, const FitOptions& options = {});
 
 }  // namespace mstsl

@@ -5,6 +5,7 @@
 #include "mstsl/core/pose2.hpp"
 #include "mstsl/scan/points.hpp"
 #include "mstsl/scan/refine.hpp"
+#include "mstsl/scan/scanned_walls.hpp"
 #include "mstsl/scan/wall_field.hpp"
 
 namespace mstsl {
@@ -35,9 +36,13 @@ struct WallFit {
 /// 0. Expects a positive definite prior covariance.
 WallFit fit_to_walls(const WallField& walls, const PointSet& points_base_m, const PosePrior& prior,
                      const FitOptions& options = {});
+WallFit fit_to_walls(const ScannedWalls& walls, const PointSet& points_base_m, const PosePrior& prior,
+                     const FitOptions& options = {});
 
 /// The score of the points at a pose, as in WallFit.
 double wall_score(const WallField& walls, const PointSet& points_base_m, const Pose2& map_T_base,
+                  double sigma_m);
+double wall_score(const ScannedWalls& walls, const PointSet& points_base_m, const Pose2& map_T_base,
                   double sigma_m);
 
 /// The same, but points of which the map cannot tell, because the laser saw them at or beyond the map's edge

@@ -5,6 +5,7 @@
 #include "mstsl/grid/distance_field.hpp"
 #include "mstsl/grid/frame.hpp"
 #include "mstsl/grid/occupancy_grid.hpp"
+#include "mstsl/scan/wall_sample.hpp"
 
 namespace mstsl {
 
@@ -28,13 +29,7 @@ class WallField {
   const DistanceField& distances() const { return distances_; }
   double reach_m() const { return distances_.max_distance_m(); }
 
-  struct Sample {
-    double squared_m2 = 0.0;        ///< squared distance, at most reach_m() squared
-    Eigen::Vector2d slope_m{0, 0};  ///< of squared_m2 / 2 by the place, map frame: the vector from the wall
-    /// Mean of n n^T over the wall's normals n near here (xx, xy, yy; map frame, trace 1): one direction for
-    /// a wall, both for a corner or a pillar. Zero where no wall is in reach.
-    Eigen::Vector3d facing{0, 0, 0};
-  };
+  using Sample = WallSample;
   /// At a map point; far from every wall (and outside the grid) the distance is the reach and all else zero.
   Sample sample(const Eigen::Vector2d& map_point_m) const;
 

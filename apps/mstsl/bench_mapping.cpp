@@ -1,0 +1,37 @@
+#include "bench_mapping.hpp"
+
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mstsl/eval/mapping_protocol.hpp"
+#include "mstsl/io/atomic_file.hpp"
+
+#include "interrupt.hpp"
+#include "progress.hpp"
+
+namespace mstsl::app {
+
+Result<Exit> bench_mapping(const Session& session, const std::vector<std::string>& worlds, int runs,
+                           const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Error(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+  MappingProtocolOptions options;
+  if (!worlds.empty()) options.worlds = worlds;
+  options.runs = runs;
+  options.seed = session.seed;
+  options.threads = session.threads;
+  Progress progress("mapping", session.quiet);
+  options.progress = [&](double share) { return progress.show(share), !interrupted(); };
+  const auto records = run_mapping_protocol(options);
+  if (!records) return records.error();
+  const std::string text = mapping_text(*records), json = mapping_json(*records, options, MSTSL_COMMIT);
+  for (const auto& [name, content] : {std::pair{"mapping.txt", &text}, std::pair{"mapping.json", &json}})
+    if (const auto written = io::write_file(folder / name, *content); !written) return written.error();
+  if (!session.quiet) fmt::print("{}", session.json ? json : text);
+  return Exit::kDone;
+}
+
+}  // namespace mstsl::app

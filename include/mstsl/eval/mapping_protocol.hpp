@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mstsl/core/parallel.hpp"
+#include "mstsl/core/result.hpp"
+#include "mstsl/core/trajectory.hpp"
+#include "mstsl/mapping/slam.hpp"
+
+namespace mstsl {
+
+/// How far a trajectory is from the true one, after the rigid motion that brings them together best.
+struct TrajectoryError {
+  Pose2 true_T_map;      ///< that motion (Umeyama 1991, without scale)
+  double rms_m = 0.0;    ///< absolute trajectory error
+  double max_m = 0.0;
+};
+
+/// Compares poses of equal number. Expects at least one.
+TrajectoryError trajectory_error(std::span<const TimedPose> estimated, std::span<const Pose2> truth);
+
+/// Drives through simulated buildings, mapped by scans alone and by scans and field.
+struct MappingProtocolOptions {
+  std::vector<std::string> worlds{"symmetric-loop", "h-wing", "office-wing", "warehouse", "corridor"};
+  int runs = 20;            ///< of each world, each with other steel and another way
+  double length_m = 400.0;  ///< driven per run
+  double scan_rate_hz = 10.0;
+  int beams = 541;
+  std::uint64_t seed = 1;
+  Threads threads;
+  std::function<bool(double share)> progress;  ///< false ends it
+};
+
+/// One drive, mapped one way.
+struct MappingRecord {
+  std::string world;
+  int run = 0;
+  bool with_field = false;
+  double driven_m = 0.0;
+  std::size_t closures = 0;
+  std::size_t wrong_closures = 0;          ///< off by more than half a metre or 10 deg, and not refuted
+  std::size_t refuted = 0;                 ///< wrong or not
+  std::size_t ambiguous = 0, refused_by_field = 0, closed_only_with_field = 0;
+  double ate_rms_m = 0.0, ate_max_m = 0.0;
+  double map_error = 0.0;     ///< share of the map's walls that lie more than 0.2 m from a true surface
+  double cpu_s = 0.0;
+  double driven_s = 0.0;
+};
+
+/// Errors: a world that is not there or cannot be toured, an end asked for.
+Result<std::vector<MappingRecord>> run_mapping_protocol(const MappingProtocolOptions& options);
+
+/// The records as a table for people, and as JSON.
+std::string mapping_text(std::span<const MappingRecord> records);
+std::string mapping_json(std::span<const MappingRecord> records, const MappingProtocolOptions& options,
+                         const std::string& commit);
+
+}  // namespace mstsl

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <list>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mstsl/core/angles.hpp"
+#include "mstsl/mapping/field_evidence.hpp"
+#include "mstsl/mapping/keyframe.hpp"
+#include "mstsl/mapping/pose_graph.hpp"
+#include "mstsl/mapping/submap.hpp"
+
+namespace mstsl {
+
+struct LoopCloserOptions {
+  double submap_m = 5.0;    ///< way in a submap
+  double look_every_m = 1.0;  ///< how often older submaps are looked at
+  double stretch_m = 4.0;   ///< way whose scans and field are compared with them together
+  /// Submaps that ended less than this way ago are no loop (m).
+  double least_way_m = 15.0;
+  /// Submaps farther away than this (m), and the standard deviation of how far, show nothing in common.
+  double nearest_m = 4.0;
+  double widest_m = 12.0;         ///< no wider window than this to each side is searched ...
+  double widest_rad = radians(30);  ///< ... and no more turned one
+  double sigmas = 3.0;            ///< of the window
+  double min_score = 0.45;        ///< of a match, to be looked at
+  /// Evidence in a stretch's scan points: what the share of matched points gains counts so many times, as
+  /// log probability, from the score on at which a match is as likely one as not.
+  double points = 30.0;
+  double even_score = 0.55;
+  double accepted_from = 0.99;  ///< probability of being the right one, against all others and none
+  bool use_field = true;
+  FieldEvidenceOptions field;
+};
+
+/// What became of the loops looked at.
+struct LoopCounts {
+  std::size_t looked_at = 0;   ///< submaps matched
+  std::size_t accepted = 0;
+  std::size_t ambiguous = 0;   ///< more than one way to close
+  std::size_t refused_by_field = 0;  ///< the scans alone would have closed it
+  std::size_t earlier_by_field = 0;  ///< the scans alone would not have closed it
+};
+
+/// Finds where a drive comes back to where it was: the last metres are matched to older submaps within what
+/// the graph leaves possible; scans and field together say which of the matches, if any, is right.
+class LoopCloser {
+ public:
+  explicit LoopCloser(const Eigen::Vector2d& magnetometer_base_m, const LoopCloserOptions& options = {})
+      : magnetometer_base_m_(magnetometer_base_m), options_(options) {}
+
+  /// The next keyframe, of which the graph already has the pose.
+  void add(const Keyframe& keyframe);
+  /// Closures of the last keyframe, if it is time to look.
+  std::vector<Closure> look(const PoseGraph& graph);
+
+  const LoopCounts& counts() const { return counts_; }
+  const FieldVariogram& variogram() const { return variogram_; }
+  std::size_t keyframes_kept() const;
+
+ private:
+  struct Match {
+    Pose2 origin_T_base;
+    Eigen::Matrix3d covariance;  ///< axes of the origin
+    double score = 0.0;
+    double log_prior = 0.0;      ///< how far it is from where the graph has it
+    double log_field = 0.0;
+  };
+  void end_submap();
+  std::vector<std::size_t> near(const PoseGraph& graph, const std::vector<Eigen::Matrix3d>& covariances) const;
+  const SubmapWalls& walls_of(std::size_t submap);
+  std::vector<Match> matches(const SubmapWalls& walls, const Stretch& stretch, const PosePrior& prior) const;
+  void along_what_scans_leave_open(const SubmapWalls& walls, const Stretch& stretch, const PosePrior& prior,
+                                   std::vector<Match>& matches) const;
+  std::optional<Closure> close(std::size_t submap, const Stretch& stretch, const PosePrior& prior);
+  void let_go_where_known(std::size_t submap, const Closure& closure);
+
+  Eigen::Vector2d magnetometer_base_m_;
+  LoopCloserOptions options_;
+  std::vector<Submap> submaps_;
+  std::vector<Keyframe> open_;    ///< of the submap being made
+  std::deque<Keyframe> stretch_;  ///< the last metres
+  std::size_t keyframes_ = 0;
+  double looked_at_m_ = 0.0;
+  std::list<std::pair<std::size_t, SubmapWalls>> ready_;  ///< made last, first
+  FieldVariogram variogram_;
+  LoopCounts counts_;
+};
+
+}  // namespace mstsl

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mstsl/core/parallel.hpp"
+#include "mstsl/core/pose2.hpp"
+#include "mstsl/mapping/wheels.hpp"
+
+namespace mstsl {
+
+/// How a pose hangs on the one before it. Informations are on (x, y, yaw) of the motion, in the axes of its
+/// start; zero where nothing is known.
+struct ChainLink {
+  Pose2 by_wheels;
+  Eigen::Matrix3d wheels_information = Eigen::Matrix3d::Zero();
+  Pose2 by_scans;  ///< along what scans do not tell, as the wheels have it
+  Eigen::Matrix3d scans_information = Eigen::Matrix3d::Zero();
+};
+
+/// Two poses seen to be near each other, long after one another.
+struct Closure {
+  std::size_t from = 0, to = 0;
+  Pose2 from_T_to;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< on (x, y, yaw) in the axes of `from`
+  bool by_field = false;   ///< the field had a say in it
+  double probability = 0;  ///< of being right, when it was made
+  bool refuted = false;    ///< all the others together say that it is wrong
+};
+
+struct PoseGraphOptions {
+  WheelCalibration wheels_sd{.scale = 0.05, .drift_rad_per_m = 0.035, .turn_scale = 0.05};
+  /// A closure this many standard deviations (of all its three numbers together) off is refuted.
+  double refuted_beyond = 5.0;
+  int max_iterations = 30;
+  Threads threads;
+};
+
+/// Poses along drives, tied by what wheels and scans say of neighbours and by closures between distant ones:
+/// the most probable poses of all (Lu & Milios 1997), with the wheels' calibration, by least squares (Ceres)
+/// with robust losses on scans and closures.
+class PoseGraph {
+ public:
+  explicit PoseGraph(const PoseGraphOptions& options = {}) : options_(options) {}
+
+  /// Appends a pose that hangs on the last one; the first pose of all is the map's origin and its link is
+  /// not looked at.
+  void add(const ChainLink& link);
+  void add(const Closure& closure) { closures_.push_back(closure); }
+
+  /// Moves all poses to where they are most probable; closures that then do not fit are refuted and left
+  /// out.
+  void optimise();
+
+  std::size_t size() const { return poses_.size(); }
+  const Pose2& pose(std::size_t i) const { return poses_[i]; }
+  const std::vector<Closure>& closures() const { return closures_; }
+  const WheelCalibration& wheels() const { return wheels_; }
+
+  /// How well the pose of each earlier node relative to the last one is known: the covariance (x, y, yaw; in
+  /// the axes of the last pose) along the best known way through the graph (Olson 2008, Dijkstra projection):
+  /// a little too large where several ways lead there.
+  std::vector<Eigen::Matrix3d> covariances_from_last() const;
+
+ private:
+  struct Edge {
+    std::size_t to;
+    Eigen::Matrix3d covariance;  ///< of this_T_to, in the axes of this
+  };
+  std::vector<std::vector<Edge>> neighbours() const;
+  void solve();
+  bool refute();
+
+  PoseGraphOptions options_;
+  std::vector<Pose2> poses_;
+  std::vector<ChainLink> links_;  ///< links_[i] leads from pose i - 1 to pose i
+  std::vector<Closure> closures_;
+  WheelCalibration wheels_;
+};
+
+}  // namespace mstsl

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "mstsl/core/angles.hpp"
+#include "mstsl/core/sensor_data.hpp"
+#include "mstsl/core/trajectory.hpp"
+#include "mstsl/localize/joint/station_collector.hpp"
+#include "mstsl/localize/motion_noise.hpp"
+#include "mstsl/localize/odometry_track.hpp"
+#include "mstsl/mapping/keyframe.hpp"
+#include "mstsl/mapping/wheels.hpp"
+#include "mstsl/scan/fit_around.hpp"
+#include "mstsl/scan/scanned_walls.hpp"
+
+namespace mstsl {
+
+struct ScanChainOptions {
+  /// A scan becomes a keyframe after so much motion (m, rad): what a scan sees changes little in between, and
+  /// the wheels bridge it to a centimetre.
+  double keyframe_m = 0.25;
+  double keyframe_rad = radians(9.0);
+  /// Scans are matched to the walls seen in the last so many metres.
+  double recent_m = 12.0;
+  double spacing_m = 0.1;  ///< of the points kept
+  std::size_t max_points = 250;
+  /// Returns from farther away (m) are not used: a turn by half a degree moves them by more than they tell.
+  double max_range_m = 20.0;
+  /// A scan that scores less looks around for a better pose, which must score so much more.
+  double search_below = 0.7;
+  double search_gain = 0.1;
+  /// A scan with fewer of its points on the walls seen so far says nothing of the motion.
+  double least_score = 0.3;
+  FitOptions fit = {.sigma_m = 0.06, .max_iterations = 10};
+  ScannedWallsOptions walls;
+  MotionNoise odometry;
+  joint::StationOptions stations;
+};
+
+/// The first half of mapping: makes of a drive's scans, wheels and field a chain of keyframes, each placed by
+/// matching its scan to the walls of the last metres. Feed it in time order.
+class ScanChain {
+ public:
+  explicit ScanChain(const Rig& rig, const ScanChainOptions& options = {});
+
+  void observe(const OdometryReading& odometry);
+  void observe(const OdometryRestart& restart) { track_.restart(restart); }
+  void observe(const LaserScan& scan);
+  void observe(const FieldReading& field);
+  void finish() { take_waiting(true); }
+
+  /// What has been learned of the wheels; used from here on.
+  void set_wheels(const WheelCalibration& wheels) { wheels_ = wheels; }
+
+  /// The keyframes since the last call.
+  std::vector<Keyframe> take();
+
+  /// track_T_base at each odometry reading so far.
+  const std::vector<TimedPose>& odometry() const { return odometry_; }
+  std::size_t scans() const { return scans_; }
+  std::size_t breaks() const { return track_.breaks(); }
+  double travelled_m() const { return track_.travelled_m(); }
+
+ private:
+  void take_waiting(bool now);
+  void take_fields(Stamp until);
+  bool is_due(const Pose2& track_T_base) const;
+  void add(const LaserScan& scan, const Pose2& track_T_base, const Pose2& track_T_end);
+  WallFit matched(const PointSet& points, const PosePrior& prior) const;
+  void draw(const Keyframe& keyframe);
+
+  Rig rig_;
+  ScanChainOptions options_;
+  WheelCalibration wheels_;
+  OdometryTrack track_;
+  std::vector<TimedPose> odometry_;
+  std::deque<LaserScan> waiting_scans_;
+  std::deque<FieldReading> waiting_fields_;
+  joint::StationCollector stations_;
+  ScannedWalls walls_;
+  std::deque<Keyframe> recent_;  ///< drawn in walls_
+  std::size_t drawn_since_ = 0;  ///< keyframes since walls_ were begun anew
+  std::vector<Keyframe> made_;
+  std::uint64_t breaks_at_last_ = 0;
+  std::size_t scans_ = 0;
+};
+
+}  // namespace mstsl

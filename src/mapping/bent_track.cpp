@@ -1,0 +1,30 @@
+#include "mstsl/mapping/bent_track.hpp"
+
+#include <algorithm>
+
+#include "mstsl/core/angles.hpp"
+
+namespace mstsl {
+
+Trajectory bent_track(std::span<const TimedPose> track_T_base, std::span<const TrackKnot> knots) {
+  Trajectory bent;
+  std::size_t next = 1;
+  for (const TimedPose& at : track_T_base) {
+    while (next + 1 < knots.size() && knots[next].stamp < at.stamp) ++next;
+    const TrackKnot& a = knots[next - 1];
+    const Pose2 from_a = a.map_T_base * between(a.track_T_base, at.pose);
+    if (knots.size() < 2 || at.stamp < a.stamp) {
+      bent.add(at.stamp, from_a);
+      continue;
+    }
+    const TrackKnot& b = knots[next];
+    const Pose2 to_b = a.map_T_base * between(a.track_T_base, b.track_T_base);
+    const double share = std::clamp((at.stamp - a.stamp) / (b.stamp - a.stamp), 0.0, 1.0);
+    bent.add(at.stamp,
+             Pose2::from(from_a.position() + share * (b.map_T_base.position() - to_b.position()),
+                         from_a.yaw + share * angle_between(to_b.yaw, b.map_T_base.yaw)));
+  }
+  return bent;
+}
+
+}  // namespace mstsl

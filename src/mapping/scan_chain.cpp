@@ -1,0 +1,143 @@
+#include "mstsl/mapping/scan_chain.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "mstsl/localize/motion.hpp"
+
+namespace mstsl {
+namespace {
+
+/// Thinned and not too many, each with its direction.
+std::vector<FacedPoint> chosen(std::vector<BeamReturn> returns, const ScanChainOptions& options) {
+  std::erase_if(returns, [&](const BeamReturn& r) {
+    return (r.point_m - r.origin_m).norm() > options.max_range_m;
+  });
+  std::vector<FacedPoint> kept;
+  PointSet places;
+  for (const FacedPoint& p : faced_points(returns)) {
+    if (!places.empty() && (places.back() - p.point_m).norm() < options.spacing_m) continue;
+    places.push_back(p.point_m);
+    kept.push_back(p);
+  }
+  if (kept.size() <= options.max_points) return kept;
+  std::vector<FacedPoint> fewer;
+  for (std::size_t i = 0; i < options.max_points; ++i)
+    fewer.push_back(kept[i * kept.size() / options.max_points]);
+  return fewer;
+}
+
+Eigen::Matrix3d in_base(const Eigen::Matrix3d& information_in_map, double yaw_rad) {
+  Eigen::Matrix3d map_R_base = Eigen::Matrix3d::Identity();
+  map_R_base.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
+  return map_R_base.transpose() * information_in_map * map_R_base;
+}
+
+}  // namespace
+
+ScanChain::ScanChain(const Rig& rig, const ScanChainOptions& options)
+    : rig_(rig), options_(options), stations_(rig, options.stations), walls_({0, 0}, options.walls) {}
+
+void ScanChain::observe(const OdometryReading& odometry) {
+  track_.add(odometry);
+  const auto pose = track_.at(odometry.stamp);
+  if (pose && (odometry_.empty() || odometry.stamp > odometry_.back().stamp))
+    odometry_.push_back({odometry.stamp, *pose});
+  take_waiting(false);
+}
+
+void ScanChain::observe(const LaserScan& scan) {
+  ++scans_;
+  if (waiting_scans_.empty() || scan.stamp > waiting_scans_.back().stamp) waiting_scans_.push_back(scan);
+  take_waiting(false);
+}
+
+void ScanChain::observe(const FieldReading& field) {
+  if (!field.sensor_field_uT.allFinite()) return;
+  if (waiting_fields_.empty() || field.stamp > waiting_fields_.back().stamp) waiting_fields_.push_back(field);
+}
+
+void ScanChain::take_waiting(bool now) {
+  constexpr double kPatience_s = 3.0;
+  while (!waiting_scans_.empty()) {
+    const LaserScan& scan = waiting_scans_.front();
+    const Stamp end = scan.stamp + sweep_duration_s(scan);
+    const bool too_old = waiting_scans_.back().stamp - scan.stamp > kPatience_s;
+    if (!now && !too_old && !track_.covers(end)) return;
+    const auto track_T_base = track_.at(scan.stamp), track_T_end = track_.at(end);
+    if (track_T_base && is_due(*track_T_base)) {
+      take_fields(scan.stamp);
+      add(scan, *track_T_base, track_T_end.value_or(*track_T_base));
+    }
+    waiting_scans_.pop_front();
+  }
+  if (!odometry_.empty() && !waiting_fields_.empty() &&
+      odometry_.back().stamp - waiting_fields_.front().stamp > kPatience_s)
+    take_fields(waiting_fields_.front().stamp + 0.5 * kPatience_s);
+}
+
+void ScanChain::take_fields(Stamp until) {
+  for (; !waiting_fields_.empty() && waiting_fields_.front().stamp <= until; waiting_fields_.pop_front())
+    if (const auto at = track_.at(waiting_fields_.front().stamp)) stations_.add(waiting_fields_.front(), *at);
+}
+
+bool ScanChain::is_due(const Pose2& track_T_base) const {
+  if (recent_.empty()) return true;
+  const Pose2& last = recent_.back().track_T_base;
+  return distance(last, track_T_base) >= options_.keyframe_m ||
+         std::abs(angle_between(last.yaw, track_T_base.yaw)) >= options_.keyframe_rad ||
+         track_.breaks() != breaks_at_last_;
+}
+
+WallFit ScanChain::matched(const PointSet& points, const PosePrior& prior) const {
+  WallFit fit = fit_to_walls(walls_, points, prior, options_.fit);
+  if (fit.score >= options_.search_below) return fit;
+  constexpr Surroundings kNear{.steps = 1, .step_m = 0.2, .corners = true, .turns = 3, .turn_rad = 0.04};
+  const WallFit around = fit_around(walls_, points, prior.mean, kNear, options_.fit);
+  return around.score > fit.score + options_.search_gain ? around : fit;
+}
+
+void ScanChain::add(const LaserScan& scan, const Pose2& track_T_base, const Pose2& track_T_end) {
+  Keyframe keyframe{.stamp = scan.stamp, .travelled_m = track_.travelled_m(), .track_T_base = track_T_base};
+  keyframe.points_base_m =
+      chosen(beam_returns(scan, rig_.base_T_laser, between(track_T_base, track_T_end)), options_);
+  keyframe.broken = track_.breaks() != breaks_at_last_;
+  breaks_at_last_ = track_.breaks();
+  if (!recent_.empty()) {
+    const Keyframe& last = recent_.back();
+    const Pose2 motion = wheels_.corrected(between(last.track_T_base, track_T_base));
+    PosePrior prior{last.chain_T_base * motion,
+                    in_map(last.chain_T_base, options_.odometry.covariance(motion))};
+    if (keyframe.broken) prior.covariance += Eigen::Vector3d(1.0, 1.0, 0.25).asDiagonal();
+    keyframe.chain_T_base = prior.mean;
+    const WallFit fit = matched(places_of(keyframe.points_base_m), prior);
+    keyframe.score = fit.score;
+    if (fit.score >= options_.least_score) {
+      keyframe.chain_T_base = fit.map_T_base;
+      keyframe.scan_information = in_base(fit.information, fit.map_T_base.yaw);
+    }
+  }
+  keyframe.stations = stations_.take(track_T_base);
+  draw(keyframe);
+  made_.push_back(std::move(keyframe));
+}
+
+void ScanChain::draw(const Keyframe& keyframe) {
+  recent_.push_back(keyframe);
+  recent_.back().stations.clear();
+  constexpr std::size_t kMost = 150;  // who turns on the spot all day has no older ones by the way driven
+  while (recent_.size() > 1 && (recent_.size() > kMost ||
+                                keyframe.travelled_m - recent_.front().travelled_m > options_.recent_m))
+    recent_.pop_front();
+  // Begun anew now and then, so that only the last metres are in it and the robot stays near its middle.
+  const bool anew = ++drawn_since_ > recent_.size() + 10 ||
+                    (keyframe.chain_T_base.position() - walls_.center_m()).norm() > 0.4 * options_.walls.half_size_m;
+  if (!anew) return walls_.add(keyframe.points_base_m, keyframe.chain_T_base);
+  walls_ = ScannedWalls(keyframe.chain_T_base.position(), options_.walls);
+  for (const Keyframe& k : recent_) walls_.add(k.points_base_m, k.chain_T_base);
+  drawn_since_ = 0;
+}
+
+std::vector<Keyframe> ScanChain::take() { return std::exchange(made_, {}); }
+
+}  // namespace mstsl
