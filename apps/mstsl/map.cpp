@@ -84,6 +84,9 @@ void add_map_occupancy(CLI::App& map, Session& session) {
   command->add_option("-o,--output", wish->output, "Occupancy map: a map_server yaml, its image beside it")
       ->required();
   command->add_option("--tum", wish->tum, "Also where the robot was, in TUM format");
+  command->add_option("--truth-topic", wish->truth_topic,
+                      "Topic with true poses: how far the drive's are from them is said, and nothing else done "
+                      "with them");
   command->add_flag("--no-field", wish->without_field, "Close loops by scans alone");
   command->add_option("--resolution", wish->drawing.resolution_m, "Side of a cell, m")
       ->check(CLI::Range(0.01, 1.0))

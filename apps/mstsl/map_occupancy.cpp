@@ -134,10 +134,14 @@ Result<MappedDrive> map_drive(const Session& session, const OccupancyMapWish& wi
   if (!track) return track.error().within(where);
   MappedDrive drive{.grid = {}, .track = std::move(track).value(), .warnings = played->warnings};
   play.topics.magnetic_field.clear();
+  play.topics.pose = wish.truth_topic;
   Drawing drawing(drive.track, wish.drawing);
   const auto drawn = play_all(
       session, wish, play, "drawing", [&](const io::RecordingHeader& header) { drawing.set_rig(header.rig); },
-      [&](const SensorEvent& event) { hand_over(drawing, event); });
+      [&](const SensorEvent& event) {
+        hand_over(drawing, event);
+        if (const auto* pose = std::get_if<PoseReading>(&event)) drive.truth.push_back(*pose);
+      });
   if (!drawn) return drawn.error();
   Result<OccupancyGrid> grid = drawing.finish();
   if (!grid) return grid.error().within(where);

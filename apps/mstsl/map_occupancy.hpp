@@ -23,6 +23,7 @@ struct OccupancyMapWish {
   MappingOptions drawing;
   SlamOptions slam;
   bool without_field = false;
+  std::string truth_topic;  ///< poses to hold the map's against; they are not used to make it
   std::optional<std::filesystem::path> tum;
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> picture;
@@ -33,6 +34,7 @@ struct MappedDrive {
   OccupancyGrid grid;
   SlamTrack track;
   std::vector<std::string> warnings;
+  std::vector<PoseReading> truth;  ///< what the log says under the truth's topic
 };
 
 /// Finds where the robot was, then draws what its scans saw from there. The logs are one drive: each begins

@@ -9,9 +9,10 @@
 #include <Eigen/Geometry>
 
 #include "mstsl/core/angles.hpp"
-#include "mstsl/eval/statistics.hpp"
+#include "mstsl/eval/trajectory_error.hpp"
 #include "mstsl/grid/distance_field.hpp"
 #include "mstsl/mapping/occupancy_mapper.hpp"
+#include "mstsl/mapping/slam.hpp"
 #include "mstsl/sim/drive.hpp"
 #include "mstsl/sim/occupancy_map.hpp"
 #include "mstsl/sim/run.hpp"
@@ -133,28 +134,6 @@ Result<MappingRecord> mapped(const Recording& recording, const OccupancyGrid& tr
 }
 
 }  // namespace
-
-TrajectoryError trajectory_error(std::span<const TimedPose> estimated, std::span<const Pose2> truth) {
-  const auto n = static_cast<double>(estimated.size());
-  Eigen::Vector2d mean_estimated(0, 0), mean_true(0, 0);
-  for (std::size_t i = 0; i < estimated.size(); ++i)
-    mean_estimated += estimated[i].pose.position() / n, mean_true += truth[i].position() / n;
-  double cosine = 0.0, sine = 0.0;
-  for (std::size_t i = 0; i < estimated.size(); ++i) {
-    const Eigen::Vector2d e = estimated[i].pose.position() - mean_estimated, t = truth[i].position() - mean_true;
-    cosine += e.dot(t), sine += e.x() * t.y() - e.y() * t.x();
-  }
-  TrajectoryError error;
-  const double yaw = std::atan2(sine, cosine);
-  error.true_T_map = Pose2::from(mean_true - Eigen::Rotation2Dd(yaw) * mean_estimated, yaw);
-  for (std::size_t i = 0; i < estimated.size(); ++i) {
-    const double off_m = (error.true_T_map * estimated[i].pose.position() - truth[i].position()).norm();
-    error.rms_m += off_m * off_m / n;
-    error.max_m = std::max(error.max_m, off_m);
-  }
-  error.rms_m = std::sqrt(error.rms_m);
-  return error;
-}
 
 Result<std::vector<MappingRecord>> run_mapping_protocol(const MappingProtocolOptions& options) {
   const std::size_t runs = options.worlds.size() * static_cast<std::size_t>(options.runs);

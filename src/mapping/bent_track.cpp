@@ -8,8 +8,13 @@ namespace mstsl {
 
 Trajectory bent_track(std::span<const TimedPose> track_T_base, std::span<const TrackKnot> knots) {
   Trajectory bent;
-  std::size_t next = 1;
+  std::size_t next = 1, added = 0;
+  const auto add_knots_until = [&](Stamp stamp) {
+    for (; added < knots.size() && knots[added].stamp <= stamp; ++added)
+      bent.add(knots[added].stamp, knots[added].map_T_base);
+  };
   for (const TimedPose& at : track_T_base) {
+    add_knots_until(at.stamp);
     while (next + 1 < knots.size() && knots[next].stamp < at.stamp) ++next;
     const TrackKnot& a = knots[next - 1];
     const Pose2 from_a = a.map_T_base * between(a.track_T_base, at.pose);
@@ -24,6 +29,7 @@ Trajectory bent_track(std::span<const TimedPose> track_T_base, std::span<const T
              Pose2::from(from_a.position() + share * (b.map_T_base.position() - to_b.position()),
                          from_a.yaw + share * angle_between(to_b.yaw, b.map_T_base.yaw)));
   }
+  if (!knots.empty()) add_knots_until(knots.back().stamp);
   return bent;
 }
 

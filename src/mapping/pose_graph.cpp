@@ -140,11 +140,12 @@ void PoseGraph::solve() {
   };
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const ChainLink& link = links_[i];
+    // Wheels slip and recordings have gaps: where wheels and scans contradict each other the wheels give in.
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<WheelResidual, 3, 3, 3, 3>(new WheelResidual{
                                  link.by_wheels, root_of(link.wheels_information)}),
-                             nullptr, poses[i - 1].data(), poses[i].data(), wheels.data());
+                             new ceres::CauchyLoss(2.0), poses[i - 1].data(), poses[i].data(), wheels.data());
     if (!link.scans_information.isZero())
-      tie(i - 1, i, link.by_scans, link.scans_information, new ceres::HuberLoss(2.0));
+      tie(i - 1, i, link.by_scans, link.scans_information, new ceres::HuberLoss(4.0));
   }
   for (const Closure& c : closures_)
     if (!c.refuted) tie(c.from, c.to, c.from_T_to, c.information, new ceres::CauchyLoss(2.0));

@@ -1,5 +1,6 @@
 #include "mstsl/mapping/scan_chain.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -65,7 +66,7 @@ void ScanChain::take_waiting(bool now) {
     const bool too_old = waiting_scans_.back().stamp - scan.stamp > kPatience_s;
     if (!now && !too_old && !track_.covers(end)) return;
     const auto track_T_base = track_.at(scan.stamp), track_T_end = track_.at(end);
-    if (track_T_base && is_due(*track_T_base)) {
+    if (track_T_base && is_due(scan.stamp, *track_T_base)) {
       take_fields(scan.stamp);
       add(scan, *track_T_base, track_T_end.value_or(*track_T_base));
     }
@@ -81,45 +82,88 @@ void ScanChain::take_fields(Stamp until) {
     if (const auto at = track_.at(waiting_fields_.front().stamp)) stations_.add(waiting_fields_.front(), *at);
 }
 
-bool ScanChain::is_due(const Pose2& track_T_base) const {
-  if (recent_.empty()) return true;
-  const Pose2& last = recent_.back().track_T_base;
-  return distance(last, track_T_base) >= options_.keyframe_m ||
-         std::abs(angle_between(last.yaw, track_T_base.yaw)) >= options_.keyframe_rad ||
+bool ScanChain::moved(const Pose2& from, const Pose2& to, double share) const {
+  return distance(from, to) >= share * options_.keyframe_m ||
+         std::abs(angle_between(from.yaw, to.yaw)) >= share * options_.keyframe_rad;
+}
+
+bool ScanChain::is_due(Stamp stamp, const Pose2& track_T_base) const {
+  return !at_ || stamp - at_->stamp >= options_.matched_s || moved(at_->track_T_base, track_T_base, options_.matched_share) ||
          track_.breaks() != breaks_at_last_;
 }
 
 WallFit ScanChain::matched(const PointSet& points, const PosePrior& prior) const {
-  WallFit fit = fit_to_walls(walls_, points, prior, options_.fit);
-  if (fit.score >= options_.search_below) return fit;
+  WallFit best = fit_to_walls(walls_, points, prior, options_.fit);
+  const auto consider = [&](const WallFit& fit, double gain) {
+    if (fit.score > best.score + gain) best = fit;
+  };
+  // Wheels that slipped, or whose readings got lost, are off by more than their usual error.
+  const Eigen::Matrix3d wide = options_.slipped * options_.slipped * prior.covariance;
+  consider(fit_to_walls(walls_, points, {prior.mean, wide}, options_.fit), options_.slip_gain);
+  if (best.score >= options_.search_below) return best;
   constexpr Surroundings kNear{.steps = 1, .step_m = 0.2, .corners = true, .turns = 3, .turn_rad = 0.04};
-  const WallFit around = fit_around(walls_, points, prior.mean, kNear, options_.fit);
-  return around.score > fit.score + options_.search_gain ? around : fit;
+  consider(fit_around(walls_, points, prior.mean, kNear, options_.fit), options_.search_gain);
+  return best;
+}
+
+WallFit ScanChain::found_again(const PointSet& points, const Pose2& about, double silent_s) const {
+  // Never as far as the half turn that looks the same in a corridor.
+  const double most_rad = std::min(radians(100.0), options_.turn_rad_s * silent_s);
+  const double most_m = std::min(1.0, options_.speed_m_s * silent_s);
+  Surroundings around{.step_m = 0.25, .corners = true, .turn_rad = 0.06};
+  around.steps = static_cast<int>(std::ceil(most_m / around.step_m));
+  around.turns = static_cast<int>(std::ceil(most_rad / around.turn_rad));
+  return fit_around(walls_, points, about, around, options_.fit);
+}
+
+double ScanChain::longest_silence_s(Stamp stamp) const {
+  double longest_s = 0.0;
+  if (!at_) return longest_s;
+  Stamp later = stamp;
+  for (auto at = odometry_.rbegin(); at != odometry_.rend(); ++at) {
+    if (at->stamp > later) continue;
+    longest_s = std::max(longest_s, later - at->stamp);
+    if (at->stamp <= at_->stamp) break;
+    later = at->stamp;
+  }
+  return longest_s;
 }
 
 void ScanChain::add(const LaserScan& scan, const Pose2& track_T_base, const Pose2& track_T_end) {
   Keyframe keyframe{.stamp = scan.stamp, .travelled_m = track_.travelled_m(), .track_T_base = track_T_base};
   keyframe.points_base_m =
       chosen(beam_returns(scan, rig_.base_T_laser, between(track_T_base, track_T_end)), options_);
-  keyframe.broken = track_.breaks() != breaks_at_last_;
+  const bool broken = track_.breaks() != breaks_at_last_;
   breaks_at_last_ = track_.breaks();
-  if (!recent_.empty()) {
-    const Keyframe& last = recent_.back();
-    const Pose2 motion = wheels_.corrected(between(last.track_T_base, track_T_base));
-    PosePrior prior{last.chain_T_base * motion,
-                    in_map(last.chain_T_base, options_.odometry.covariance(motion))};
-    if (keyframe.broken) prior.covariance += Eigen::Vector3d(1.0, 1.0, 0.25).asDiagonal();
-    keyframe.chain_T_base = prior.mean;
-    const WallFit fit = matched(places_of(keyframe.points_base_m), prior);
-    keyframe.score = fit.score;
-    if (fit.score >= options_.least_score) {
-      keyframe.chain_T_base = fit.map_T_base;
-      keyframe.scan_information = in_base(fit.information, fit.map_T_base.yaw);
-    }
-  }
+  const double silent_s = broken ? options_.break_s : longest_silence_s(scan.stamp);
+  broken_since_keyframe_ |= silent_s > options_.silence_s;
+  if (at_) place(keyframe, silent_s);
+  const bool is_keyframe = recent_.empty() || broken_since_keyframe_ ||
+                           moved(recent_.back().track_T_base, track_T_base, 1.0) ||
+                           moved(recent_.back().chain_T_base, keyframe.chain_T_base, 1.0);
+  at_ = At{scan.stamp, track_T_base, keyframe.chain_T_base};
+  matched_scans_.push_back({scan.stamp, keyframe.chain_T_base});
+  if (!is_keyframe) return;
+  keyframe.broken = std::exchange(broken_since_keyframe_, false);
   keyframe.stations = stations_.take(track_T_base);
   draw(keyframe);
   made_.push_back(std::move(keyframe));
+}
+
+void ScanChain::place(Keyframe& keyframe, double silent_s) const {
+  const Pose2 motion = wheels_.corrected(between(at_->track_T_base, keyframe.track_T_base));
+  const PosePrior prior{at_->chain_T_base * motion,
+                        in_map(at_->chain_T_base, options_.odometry.covariance(motion))};
+  const PointSet points = places_of(keyframe.points_base_m);
+  WallFit fit = matched(points, prior);
+  if (silent_s > options_.silence_s && fit.score < options_.lost_below) {
+    const WallFit again = found_again(points, prior.mean, silent_s);
+    if (again.score > options_.search_below) fit = again;
+  }
+  keyframe.score = fit.score;
+  keyframe.chain_T_base = fit.score < options_.least_score ? prior.mean : fit.map_T_base;
+  if (fit.score >= options_.least_score)
+    keyframe.scan_information = in_base(fit.information, fit.map_T_base.yaw);
 }
 
 void ScanChain::draw(const Keyframe& keyframe) {

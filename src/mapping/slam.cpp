@@ -1,6 +1,7 @@
 #include "mstsl/mapping/slam.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -14,6 +15,9 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double yaw_rad) {
   r.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
   return r * information * r.transpose();
 }
+
+/// Wheels err the same way for many steps; counted as if each step erred anew they would say too much.
+constexpr double kWheelsAgain = 4.0;
 
 }  // namespace
 
@@ -32,7 +36,9 @@ void Slam::add(const Keyframe& keyframe) {
   if (!kept_.empty()) {
     const Kept& last = kept_.back();
     link.by_wheels = between(last.track_T_base, keyframe.track_T_base);
-    if (!keyframe.broken) link.wheels_information = options_.chain.odometry.covariance(link.by_wheels).inverse();
+    Eigen::Matrix3d covariance = kWheelsAgain * options_.chain.odometry.covariance(link.by_wheels);
+    if (keyframe.broken) covariance += Eigen::Vector3d(1.0, 1.0, 2.0).asDiagonal();
+    link.wheels_information = covariance.inverse();
     link.by_scans = between(last.chain_T_base, keyframe.chain_T_base);
     link.scans_information = turned(keyframe.scan_information, link.by_scans.yaw);
   }
@@ -53,6 +59,16 @@ void Slam::add(const Keyframe& keyframe) {
     optimise();
 }
 
+std::vector<TrackKnot> Slam::scans_on_track(const Trajectory& scans) const {
+  Trajectory track;
+  for (const TimedPose& at : chain_.odometry()) track.add(at.stamp, at.pose);
+  std::vector<TrackKnot> knots;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    if (const auto at = track.at(scans[i].stamp, std::numeric_limits<double>::infinity()))
+      knots.push_back({scans[i].stamp, *at, scans[i].pose});
+  return knots;
+}
+
 void Slam::optimise() {
   graph_.optimise();
   chain_.set_wheels(graph_.wheels());
@@ -70,13 +86,13 @@ Result<SlamTrack> Slam::finish() {
                                      : "no scan was taken near a time with odometry; no map can be made");
   graph_.optimise();
   SlamTrack track;
-  std::vector<TrackKnot> knots;
+  std::vector<TrackKnot> keyframes;
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    knots.push_back({kept_[i].stamp, kept_[i].track_T_base, graph_.pose(i)});
+    keyframes.push_back({kept_[i].stamp, kept_[i].chain_T_base, graph_.pose(i)});
     track.keyframes.push_back({kept_[i].stamp, graph_.pose(i)});
     track.mean_score += kept_[i].score / static_cast<double>(kept_.size());
   }
-  track.map_T_base = bent_track(chain_.odometry(), knots);
+  track.map_T_base = bent_track(chain_.odometry(), scans_on_track(bent_track(chain_.matched_scans(), keyframes)));
   track.closures = graph_.closures();
   track.loops = loops_.counts();
   track.wheels = graph_.wheels();

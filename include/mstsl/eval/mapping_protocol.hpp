@@ -9,20 +9,8 @@
 
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
-#include "mstsl/core/trajectory.hpp"
-#include "mstsl/mapping/slam.hpp"
 
 namespace mstsl {
-
-/// How far a trajectory is from the true one, after the rigid motion that brings them together best.
-struct TrajectoryError {
-  Pose2 true_T_map;      ///< that motion (Umeyama 1991, without scale)
-  double rms_m = 0.0;    ///< absolute trajectory error
-  double max_m = 0.0;
-};
-
-/// Compares poses of equal number. Expects at least one.
-TrajectoryError trajectory_error(std::span<const TimedPose> estimated, std::span<const Pose2> truth);
 
 /// Drives through simulated buildings, mapped by scans alone and by scans and field.
 struct MappingProtocolOptions {

@@ -24,18 +24,34 @@ struct ScanChainOptions {
   /// the wheels bridge it to a centimetre.
   double keyframe_m = 0.25;
   double keyframe_rad = radians(9.0);
+  /// ... and is matched after this share of it: the less wheels have to bridge, the better.
+  double matched_share = 0.3;
+  /// ... and after this time (s) whatever the wheels say.
+  double matched_s = 0.4;
+  /// Where wheels said nothing for so long (s), a scan that scores less than `lost_below` is looked for as far
+  /// as a robot may have gone meanwhile; a break of odometry counts as so long a silence.
+  double silence_s = 1.0;
+  double break_s = 4.0;
+  double lost_below = 0.5;
+  double speed_m_s = 0.5;
+  double turn_rad_s = 1.0;
   /// Scans are matched to the walls seen in the last so many metres.
   double recent_m = 12.0;
   double spacing_m = 0.1;  ///< of the points kept
   std::size_t max_points = 250;
   /// Returns from farther away (m) are not used: a turn by half a degree moves them by more than they tell.
   double max_range_m = 20.0;
+  /// Wheels may be off by so many times their usual error; a match that takes this for granted must score so
+  /// much more than one that does not.
+  double slipped = 6.0;
+  double slip_gain = 0.03;
   /// A scan that scores less looks around for a better pose, which must score so much more.
   double search_below = 0.7;
   double search_gain = 0.1;
   /// A scan with fewer of its points on the walls seen so far says nothing of the motion.
   double least_score = 0.3;
-  FitOptions fit = {.sigma_m = 0.06, .max_iterations = 10};
+  /// Each point counts: a scan and the walls drawn a moment ago share few errors.
+  FitOptions fit = {.sigma_m = 0.06, .points_per_error = 1.0, .max_iterations = 10};
   ScannedWallsOptions walls;
   MotionNoise odometry;
   joint::StationOptions stations;
@@ -59,6 +75,8 @@ class ScanChain {
   /// The keyframes since the last call.
   std::vector<Keyframe> take();
 
+  /// Every scan that was matched so far, and where on the chain it was taken.
+  const std::vector<TimedPose>& matched_scans() const { return matched_scans_; }
   /// track_T_base at each odometry reading so far.
   const std::vector<TimedPose>& odometry() const { return odometry_; }
   std::size_t scans() const { return scans_; }
@@ -68,9 +86,13 @@ class ScanChain {
  private:
   void take_waiting(bool now);
   void take_fields(Stamp until);
-  bool is_due(const Pose2& track_T_base) const;
+  bool moved(const Pose2& from, const Pose2& to, double share) const;
+  bool is_due(Stamp stamp, const Pose2& track_T_base) const;
   void add(const LaserScan& scan, const Pose2& track_T_base, const Pose2& track_T_end);
+  void place(Keyframe& keyframe, double silent_s) const;
   WallFit matched(const PointSet& points, const PosePrior& prior) const;
+  WallFit found_again(const PointSet& points, const Pose2& about, double silent_s) const;
+  double longest_silence_s(Stamp stamp) const;
   void draw(const Keyframe& keyframe);
 
   Rig rig_;
@@ -78,10 +100,18 @@ class ScanChain {
   WheelCalibration wheels_;
   OdometryTrack track_;
   std::vector<TimedPose> odometry_;
+  std::vector<TimedPose> matched_scans_;  ///< chain_T_base
   std::deque<LaserScan> waiting_scans_;
   std::deque<FieldReading> waiting_fields_;
   joint::StationCollector stations_;
   ScannedWalls walls_;
+  /// The last scan that was matched.
+  struct At {
+    Stamp stamp;
+    Pose2 track_T_base, chain_T_base;
+  };
+  std::optional<At> at_;
+  bool broken_since_keyframe_ = false;
   std::deque<Keyframe> recent_;  ///< drawn in walls_
   std::size_t drawn_since_ = 0;  ///< keyframes since walls_ were begun anew
   std::vector<Keyframe> made_;

@@ -6,6 +6,7 @@
 #include "mstsl/core/result.hpp"
 #include "mstsl/core/sensor_data.hpp"
 #include "mstsl/core/trajectory.hpp"
+#include "mstsl/mapping/bent_track.hpp"
 #include "mstsl/mapping/loop_closer.hpp"
 #include "mstsl/mapping/pose_graph.hpp"
 #include "mstsl/mapping/scan_chain.hpp"
@@ -20,7 +21,8 @@ struct SlamOptions {
 
 /// Where the robot was on a drive through a building of which nothing was known.
 struct SlamTrack {
-  Trajectory map_T_base;  ///< at each odometry reading; the map's origin is the base at the first scan
+  /// At each odometry reading and each matched scan; the map's origin is the base at the first scan.
+  Trajectory map_T_base;
   std::vector<TimedPose> keyframes;
   std::vector<Closure> closures;
   LoopCounts loops;
@@ -50,6 +52,8 @@ class Slam {
   void advance();
   void add(const Keyframe& keyframe);
   void optimise();
+  /// Where odometry had the robot at each matched scan, and where it was.
+  std::vector<TrackKnot> scans_on_track(const Trajectory& scans) const;
 
   SlamOptions options_;
   ScanChain chain_;
