@@ -77,28 +77,45 @@ void add_map_magnetic(CLI::App& map, Session& session) {
       [wish, &session] { session.work = [wish, &session] { return map_magnetic(session, *wish); }; });
 }
 
+void add_drive_options(CLI::App& command, DrivesWish& wish) {
+  command.add_flag("--continuous", wish.continuous,
+                   "Each log begins where the one before ended; otherwise each is a drive of its own, which is found in "
+                   "the map of those before it");
+  command.add_flag("--no-field", wish.without_field, "Leave the magnetic field out: loops are closed by scans alone");
+  command.add_option("--truth-topic", wish.truth_topic,
+                     "Topic with true poses: how far the drives' are from them is said, and nothing else done with "
+                     "them");
+  command.add_option("--resolution", wish.drawing.resolution_m, "Side of a cell of the occupancy map, m")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  add_topic_options(command, wish.play);
+  command.add_option("logs", wish.logs, "MCAP, rosbag2 folder, ROS 1 bag or CARMEN log")->required();
+}
+
 void add_map_occupancy(CLI::App& map, Session& session) {
   auto wish = std::make_shared<OccupancyMapWish>();
   CLI::App* command = map.add_subcommand(
-      "occupancy", "Make an occupancy map from the logs of a drive through a building that is not known");
+      "occupancy", "Make an occupancy map from the logs of drives through a building that is not known");
   command->add_option("-o,--output", wish->output, "Occupancy map: a map_server yaml, its image beside it")
       ->required();
   command->add_option("--tum", wish->tum, "Also where the robot was, in TUM format");
-  command->add_option("--truth-topic", wish->truth_topic,
-                      "Topic with true poses: how far the drive's are from them is said, and nothing else done "
-                      "with them");
-  command->add_flag("--no-field", wish->without_field, "Close loops by scans alone");
-  command->add_option("--resolution", wish->drawing.resolution_m, "Side of a cell, m")
-      ->check(CLI::Range(0.01, 1.0))
-      ->capture_default_str();
-  add_topic_options(*command, wish->play);
-  command
-      ->add_option("logs", wish->logs,
-                   "MCAP, rosbag2 folder, ROS 1 bag or CARMEN log; several are one drive, in this order")
-      ->required();
+  command->add_option("--report", wish->report, "Also what was found, as JSON: loops, wheels, drives");
+  command->add_option("--picture", wish->picture, "Also a picture of map and way, PNG or SVG");
+  add_drive_options(*command, wish->drives);
   add_common_options(*command, session);
   command->callback(
       [wish, &session] { session.work = [wish, &session] { return map_occupancy(session, *wish); }; });
+}
+
+void add_map_all(CLI::App& map, Session& session) {
+  auto wish = std::make_shared<WholeMapWish>();
+  CLI::App* command =
+      map.add_subcommand("all", "Make both maps, of walls and of the magnetic field, from raw logs of drives");
+  command->add_option("-o,--output", wish->folder, "Folder for map.yaml, field.nc, trajectory.tum, report.json, pictures")
+      ->required();
+  add_drive_options(*command, wish->drives);
+  add_common_options(*command, session);
+  command->callback([wish, &session] { session.work = [wish, &session] { return map_all(session, *wish); }; });
 }
 
 }  // namespace
@@ -108,6 +125,7 @@ void add_map(CLI::App& app, Session& session) {
   map->require_subcommand(1);
   add_map_magnetic(*map, session);
   add_map_occupancy(*map, session);
+  add_map_all(*map, session);
 }
 
 }  // namespace mstsl::app

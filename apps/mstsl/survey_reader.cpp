@@ -22,7 +22,7 @@ std::optional<std::pair<Stamp, double>> extent(const std::filesystem::path& log)
 /// Hands a collector a log's readings, and the poses of a track between them if there is one.
 class Collecting {
  public:
-  Collecting(FingerprintCollector& collector, const SurveyTrack* track)
+  Collecting(FingerprintCollector& collector, const Trajectory* track)
       : collector_(collector), track_(track) {}
 
   void observe(const SensorEvent& event) {
@@ -34,42 +34,33 @@ class Collecting {
     }
   }
   void end() {
-    if (track_ != nullptr && !track_->map_T_base.empty()) poses_until(track_->map_T_base.back().stamp);
+    if (track_ != nullptr && !track_->empty()) poses_until(track_->back().stamp);
   }
 
  private:
   void poses_until(Stamp stamp) {
     if (track_ == nullptr) return;
-    for (; next_ < track_->map_T_base.size() && track_->map_T_base[next_].stamp <= stamp; ++next_)
-      collector_.observe(PoseReading{track_->map_T_base[next_].stamp, track_->map_T_base[next_].pose});
+    for (; next_ < track_->size() && (*track_)[next_].stamp <= stamp; ++next_)
+      collector_.observe(PoseReading{(*track_)[next_].stamp, (*track_)[next_].pose});
   }
 
   FingerprintCollector& collector_;
-  const SurveyTrack* track_;
+  const Trajectory* track_;
   std::size_t next_ = 0;
 };
 
 }  // namespace
 
-Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::filesystem::path>& logs,
-                               const io::PlayOptions& play, const std::optional<KnownStart>& start) {
+Result<SurveyLogs> collect_fingerprints(const Session& session, const std::vector<std::filesystem::path>& logs,
+                                        const io::PlayOptions& play, const std::vector<Trajectory>& map_T_base) {
   SurveyLogs survey;
   std::optional<FingerprintCollector> collector;
-  Progress progress("reading", session.quiet);
+  Progress progress("reading the field", session.quiet);
   io::PlayOptions field_and_poses = play;
   field_and_poses.topics.scan.clear();
   field_and_poses.topics.odometry.clear();
   for (std::size_t k = 0; k < logs.size(); ++k) {
     const auto span = extent(logs[k]);
-    const auto show = [&](Stamp at, double from, double to) {
-      const double share = span ? std::clamp((at - span->first) / span->second, 0.0, 1.0) : 0.5;
-      progress.show((static_cast<double>(k) + from + share * (to - from)) / static_cast<double>(logs.size()));
-    };
-    if (start) {
-      Result<SurveyTrack> track = track_survey(logs[k], play, *start, [&](Stamp at) { show(at, 0.0, 0.5); });
-      if (!track) return track.error();
-      survey.tracks.push_back(std::move(track).value());
-    }
     std::optional<Collecting> collecting;
     const auto on_header = [&](const io::RecordingHeader& header) {
       survey.magnetometer_height_m = header.rig.base_T_magnetometer.translation().z();
@@ -77,11 +68,12 @@ Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::fi
         collector->start_session(header.rig);
       else
         collector.emplace(header.rig);
-      collecting.emplace(*collector, start ? &survey.tracks.back() : nullptr);
+      collecting.emplace(*collector, map_T_base.empty() ? nullptr : &map_T_base[k]);
     };
     const auto on_event = [&](const SensorEvent& event) {
       collecting->observe(event);
-      show(stamp_of(event), start ? 0.5 : 0.0, 1.0);
+      const double share = span ? std::clamp((stamp_of(event) - span->first) / span->second, 0.0, 1.0) : 0.5;
+      progress.show((static_cast<double>(k) + share) / static_cast<double>(logs.size()));
       return !interrupted();
     };
     const Result<io::PlayReport> played = io::play({logs[k]}, field_and_poses, on_header, on_event);
@@ -94,6 +86,29 @@ Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::fi
   if (!collector) return survey;
   survey.fingerprints = collector->finish();
   survey.collected = collector->report();
+  return survey;
+}
+
+Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::filesystem::path>& logs,
+                               const io::PlayOptions& play, const std::optional<KnownStart>& start) {
+  if (!start) return collect_fingerprints(session, logs, play);
+  std::vector<SurveyTrack> tracks;
+  std::vector<Trajectory> trajectories;
+  {
+    Progress progress("tracking", session.quiet);
+    for (std::size_t k = 0; k < logs.size(); ++k) {
+      const auto span = extent(logs[k]);
+      Result<SurveyTrack> track = track_survey(logs[k], play, *start, [&](Stamp at) {
+        const double share = span ? std::clamp((at - span->first) / span->second, 0.0, 1.0) : 0.5;
+        progress.show((static_cast<double>(k) + share) / static_cast<double>(logs.size()));
+      });
+      if (!track) return track.error();
+      trajectories.push_back(track->map_T_base);
+      tracks.push_back(std::move(track).value());
+    }
+  }
+  Result<SurveyLogs> survey = collect_fingerprints(session, logs, play, trajectories);
+  if (survey) survey->tracks = std::move(tracks);
   return survey;
 }
 

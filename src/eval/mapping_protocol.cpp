@@ -85,7 +85,7 @@ double map_error(const Recording& recording, const SlamTrack& track, const Pose2
   OccupancyMapper mapper;
   for (const SensorEvent& event : recording.events) {
     const auto* scan = std::get_if<LaserScan>(&event);
-    const auto pose = scan == nullptr ? std::nullopt : track.map_T_base.at(scan->stamp, kLongestGap_s);
+    const auto pose = scan == nullptr ? std::nullopt : track.drives.front().map_T_base.at(scan->stamp, kLongestGap_s);
     if (pose) (void)mapper.insert(*scan, recording.rig.base_T_laser, *pose).ok();
   }
   const OccupancyGrid drawn = mapper.grid();
@@ -101,19 +101,20 @@ Result<MappingRecord> mapped(const Recording& recording, const OccupancyGrid& tr
   SlamOptions options;
   options.loops.use_field = with_field;
   const double begun_s = thread_cpu_s();
-  Slam slam(recording.rig, options);
+  Slam slam(options);
+  slam.begin_drive(recording.rig);
   for (const SensorEvent& event : recording.events)
     std::visit(
         [&](const auto& reading) {
           if constexpr (requires { slam.observe(reading); }) slam.observe(reading);
         },
         event);
-  const Result<SlamTrack> track = slam.finish();
+  const Result<SlamTrack> track = slam.track();
   if (!track) return track.error();
   MappingRecord record;
   record.cpu_s = thread_cpu_s() - begun_s;
   record.with_field = with_field;
-  record.driven_m = track->way_m;
+  record.driven_m = track->way_m();
   record.driven_s = recording.truth.back().stamp - recording.truth.front().stamp;
   record.closures = track->closures.size();
   for (const Closure& c : track->closures) {
@@ -125,8 +126,9 @@ Result<MappingRecord> mapped(const Recording& recording, const OccupancyGrid& tr
   record.closed_only_with_field = track->loops.earlier_by_field;
   std::vector<TimedPose> estimated;
   std::vector<Pose2> truth;
-  for (const TimedPose& k : track->keyframes)
-    if (const auto at = recording.truth.at(k.stamp, kLongestGap_s)) estimated.push_back(k), truth.push_back(*at);
+  for (const SlamTrack::Keyframe& k : track->keyframes)
+    if (const auto at = recording.truth.at(k.stamp, kLongestGap_s))
+      estimated.push_back({k.stamp, k.map_T_base}), truth.push_back(*at);
   const TrajectoryError error = trajectory_error(estimated, truth);
   record.ate_rms_m = error.rms_m, record.ate_max_m = error.max_m;
   record.map_error = map_error(recording, *track, error.true_T_map, true_map);

@@ -4,22 +4,27 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include "mstsl/core/angles.hpp"
 
 namespace mstsl {
 namespace {
 
-using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+
+/// What sensors may have wrong: the older one's level bias, the newer one's, and the difference of the
+/// vertical ones. On one drive the first two are one and the last is zero.
+constexpr int kBiases = 5;
+using Biases = Eigen::Matrix<double, kBiases, 1>;
+using ByBiases = Eigen::Matrix<double, 3, kBiases>;
 
 /// A reading and the nearest older one.
 struct Pair {
   Vector3d difference_uT;       ///< older less newer, in the older one's axes
-  Matrix2d by_bias;             ///< how it changes with the sensor's level bias
+  ByBiases by_bias;             ///< how it changes with them
   double same_uT2 = 0.0;        ///< variance of a component if the two lie as near as assumed
   double weight = 0.0;          ///< of one independent piece of evidence
 };
@@ -41,8 +46,14 @@ std::vector<Pair> pairs_of(std::span<const FieldAt> older, std::span<const Field
     const Vector2d level = a_R_b * newer[i].field_uT.head<2>();
     Pair pair;
     pair.difference_uT = nearest->field_uT - Vector3d(level.x(), level.y(), newer[i].field_uT.z());
-    pair.by_bias = Eigen::Rotation2Dd(nearest->heading_rad).toRotationMatrix() -
-                   Eigen::Rotation2Dd(a_T_b.yaw + newer[i].heading_rad).toRotationMatrix();
+    const Eigen::Matrix2d by_older = Eigen::Rotation2Dd(nearest->heading_rad).toRotationMatrix();
+    const Eigen::Matrix2d by_newer = Eigen::Rotation2Dd(a_T_b.yaw + newer[i].heading_rad).toRotationMatrix();
+    pair.by_bias.setZero();
+    pair.by_bias.topLeftCorner<2, 2>() = by_older;
+    if (options.one_bias)
+      pair.by_bias.topLeftCorner<2, 2>() -= by_newer;
+    else
+      pair.by_bias.block<2, 2>(0, 2) = -by_newer, pair.by_bias(2, 4) = 1.0;
     const double apart_m = std::sqrt(squared_m2 + options.pose_sd_m * options.pose_sd_m);
     pair.same_uT2 = variogram.squared_difference_uT2(apart_m) + options.noise_uT * options.noise_uT;
     pair.weight = std::min(1.0, way_m / options.correlation_m);
@@ -67,31 +78,33 @@ std::pair<double, double> mixed(double log_p, double log_q, double share) {
 template <typename Variance>
 double log_probability(const std::vector<Pair>& pairs, double outlier_uT2, const FieldEvidenceOptions& options,
                        Variance variance) {
+  using Curvature = Eigen::Matrix<double, kBiases, kBiases>;
   const double prior = 1.0 / (options.bias_sd_uT * options.bias_sd_uT);
   std::vector<double> inlier(pairs.size(), 1.0);
-  Vector2d bias(0, 0);
-  Matrix2d curvature = prior * Matrix2d::Identity();
+  Biases bias = Biases::Zero();
+  Curvature curvature = prior * Curvature::Identity();
   double log_p = 0.0;
   for (int round = 0; round < 4; ++round) {
-    Vector2d slope(0, 0);
-    curvature = prior * Matrix2d::Identity();
+    Biases slope = Biases::Zero();
+    curvature = prior * Curvature::Identity();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const double w = pairs[i].weight * inlier[i] / variance(pairs[i]);
-      slope += w * pairs[i].by_bias.transpose() * pairs[i].difference_uT.head<2>();
+      slope += w * pairs[i].by_bias.transpose() * pairs[i].difference_uT;
       curvature += w * pairs[i].by_bias.transpose() * pairs[i].by_bias;
     }
-    bias = curvature.inverse() * slope;
+    bias = curvature.ldlt().solve(slope);
     log_p = 0.0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      Vector3d left = pairs[i].difference_uT;
-      left.head<2>() -= pairs[i].by_bias * bias;
-      const auto [log_both, share] = mixed(log_normal(left.squaredNorm(), variance(pairs[i])),
-                                           log_normal(left.squaredNorm(), outlier_uT2), options.outlier_share);
+      const double left = (pairs[i].difference_uT - pairs[i].by_bias * bias).squaredNorm();
+      const auto [log_both, share] = mixed(log_normal(left, variance(pairs[i])), log_normal(left, outlier_uT2),
+                                           options.outlier_share);
       inlier[i] = share;
       log_p += pairs[i].weight * log_both;
     }
   }
-  return log_p - 0.5 * prior * bias.squaredNorm() - 0.5 * std::log(curvature.determinant() / (prior * prior));
+  // What it costs to be free to choose them: the room that the readings leave, of what there was.
+  const double room = (curvature / prior).ldlt().vectorD().array().log().sum();
+  return log_p - 0.5 * prior * bias.squaredNorm() - 0.5 * room;
 }
 
 }  // namespace

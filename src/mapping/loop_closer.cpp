@@ -26,6 +26,13 @@ Matrix3d least_covariance() { return Vector3d(9e-4, 9e-4, 3.6e-5).asDiagonal(); 
 
 }  // namespace
 
+void LoopCloser::begin_drive(const Eigen::Vector2d& magnetometer_base_m) {
+  if (!open_.empty()) end_submap();
+  stretch_.clear();
+  ++drive_;
+  magnetometer_base_m_ = magnetometer_base_m;
+}
+
 void LoopCloser::add(const Keyframe& keyframe) {
   open_.push_back(keyframe);
   stretch_.push_back(keyframe);
@@ -39,6 +46,7 @@ void LoopCloser::add(const Keyframe& keyframe) {
 
 void LoopCloser::end_submap() {
   Submap submap;
+  submap.drive = drive_, submap.magnetometer_base_m = magnetometer_base_m_;
   submap.last = keyframes_ - 1;
   submap.first = keyframes_ - open_.size();
   submap.origin = submap.first + open_.size() / 2;
@@ -58,7 +66,8 @@ std::vector<std::size_t> LoopCloser::near(const PoseGraph& graph, const std::vec
   std::vector<std::pair<double, std::size_t>> found;
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
     const Submap& submap = submaps_[s];
-    if (submap.keyframes.empty() || stretch_.back().travelled_m - submap.end_m < options_.least_way_m) continue;
+    const bool just_now = submap.drive == drive_ && stretch_.back().travelled_m - submap.end_m < options_.least_way_m;
+    if (submap.keyframes.empty() || just_now) continue;
     const Eigen::Vector2d here_m = inverse(graph.pose(submap.origin)) * now.position();
     double distance_m = std::numeric_limits<double>::infinity();
     for (const Eigen::Vector2d& p : submap.way_m) distance_m = std::min(distance_m, (p - here_m).norm());
@@ -78,7 +87,7 @@ const SubmapWalls& LoopCloser::walls_of(std::size_t submap) {
   if (at != ready_.end())
     ready_.splice(ready_.begin(), ready_, at);
   else
-    ready_.emplace_front(submap, SubmapWalls(submaps_[submap], magnetometer_base_m_));
+    ready_.emplace_front(submap, SubmapWalls(submaps_[submap]));
   if (ready_.size() > kKept) ready_.pop_back();
   return ready_.front().second;
 }
@@ -90,7 +99,6 @@ std::vector<Closure> LoopCloser::look(const PoseGraph& graph) {
   const double way_m = last.travelled_m - stretch_.front().travelled_m;
   if (last.travelled_m - looked_at_m_ < options_.look_every_m || way_m < 0.75 * options_.stretch_m) return closures;
   looked_at_m_ = last.travelled_m;
-  if (last.travelled_m - submaps_.front().end_m < options_.least_way_m) return closures;
   const std::vector<Matrix3d> covariances = graph.covariances_from_last();
   const std::vector<Keyframe> keyframes(stretch_.begin(), stretch_.end());
   const Stretch stretch = stretch_of(keyframes, keyframes.size() - 1, magnetometer_base_m_, kSpacing_m);
@@ -197,11 +205,13 @@ std::optional<Closure> LoopCloser::close(std::size_t s, const Stretch& stretch, 
   Choice choice = choose(found);
   const bool scans_alone = choice.probability >= options_.accepted_from;
   bool by_field = false;
+  FieldEvidenceOptions field = options_.field;
+  field.one_bias = submaps_[s].drive == drive_;
   if (options_.use_field && variogram_.is_known() && !stretch.fields.empty()) {
     along_what_scans_leave_open(walls, stretch, prior, found);
     for (Match& m : found) {
       const FieldEvidence evidence =
-          field_evidence(walls.fields, stretch.fields, m.origin_T_base, variogram_, options_.field);
+          field_evidence(walls.fields, stretch.fields, m.origin_T_base, variogram_, field);
       m.log_field = evidence.log_ratio;
       by_field |= evidence.compared_m > 0.5;
     }

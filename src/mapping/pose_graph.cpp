@@ -15,6 +15,7 @@ namespace mstsl {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::Vector3d;
 using Parameters = std::array<double, 3>;
 
 /// S with S^T S = information, which may be singular.
@@ -118,6 +119,11 @@ void PoseGraph::add(const ChainLink& link) {
   links_.push_back(link);
 }
 
+void PoseGraph::move_tail(std::size_t first, std::size_t i, const Pose2& to) {
+  const Pose2 by = to * inverse(poses_[i]);
+  for (std::size_t k = first; k < poses_.size(); ++k) poses_[k] = by * poses_[k];
+}
+
 void PoseGraph::optimise() {
   if (poses_.size() < 2) return;
   solve();
@@ -140,6 +146,7 @@ void PoseGraph::solve() {
   };
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const ChainLink& link = links_[i];
+    if (link.wheels_information.isZero()) continue;  // a new drive
     // Wheels slip and recordings have gaps: where wheels and scans contradict each other the wheels give in.
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<WheelResidual, 3, 3, 3, 3>(new WheelResidual{
                                  link.by_wheels, root_of(link.wheels_information)}),
@@ -181,7 +188,8 @@ std::vector<std::vector<PoseGraph::Edge>> PoseGraph::neighbours() const {
     edges[b].push_back({a, of_inverse(between(poses_[a], poses_[b]), covariance)});
   };
   for (std::size_t i = 1; i < poses_.size(); ++i)
-    join(i - 1, i, covariance_of(links_[i].wheels_information + links_[i].scans_information));
+    if (!links_[i].wheels_information.isZero())
+      join(i - 1, i, covariance_of(links_[i].wheels_information + links_[i].scans_information));
   for (const Closure& c : closures_)
     if (!c.refuted) join(c.from, c.to, covariance_of(c.information));
   return edges;
@@ -189,7 +197,8 @@ std::vector<std::vector<PoseGraph::Edge>> PoseGraph::neighbours() const {
 
 std::vector<Matrix3d> PoseGraph::covariances_from_last() const {
   const std::vector<std::vector<Edge>> edges = neighbours();
-  std::vector<Matrix3d> covariances(poses_.size(), Matrix3d::Zero());
+  const Matrix3d unknown = Vector3d(1e4, 1e4, 10.0).asDiagonal();
+  std::vector<Matrix3d> covariances(poses_.size(), unknown);
   std::vector<bool> done(poses_.size(), false);
   if (poses_.empty()) return covariances;
   using Candidate = std::pair<double, std::size_t>;
@@ -197,6 +206,7 @@ std::vector<Matrix3d> PoseGraph::covariances_from_last() const {
   std::vector<double> best(poses_.size(), std::numeric_limits<double>::infinity());
   open.push({0.0, poses_.size() - 1});
   best.back() = 0.0;
+  covariances.back().setZero();
   const Pose2& last = poses_.back();
   while (!open.empty()) {
     const std::size_t i = open.top().second;

@@ -64,13 +64,13 @@ Stretch stretch_of(std::span<const Keyframe> keyframes, std::size_t origin,
   return stretch;
 }
 
-SubmapWalls::SubmapWalls(const Submap& submap, const Eigen::Vector2d& magnetometer_base_m)
+SubmapWalls::SubmapWalls(const Submap& submap)
     : walls({0, 0}, walls_around(all_points(submap.keyframes, submap.keyframes[submap.origin - submap.first].chain_T_base))) {
   const Pose2 chain_T_origin = submap.keyframes[submap.origin - submap.first].chain_T_base;
   for (const Keyframe& k : submap.keyframes) {
     const Pose2 origin_T_base = between(chain_T_origin, k.chain_T_base);
     walls.add(k.points_base_m, origin_T_base);
-    add_fields(k, origin_T_base, magnetometer_base_m, fields);
+    add_fields(k, origin_T_base, submap.magnetometer_base_m, fields);
   }
   const PointSet points_m = all_points(submap.keyframes, chain_T_origin);
   if (!points_m.empty())

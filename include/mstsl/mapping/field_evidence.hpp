@@ -47,6 +47,7 @@ struct FieldEvidenceOptions {
   double pose_sd_m = 0.07;
   double noise_uT = 1.0;      ///< of the difference of two readings of one place on one day
   double bias_sd_uT = 15.0;   ///< of the magnetometer, level axes, where nothing is known of it
+  bool one_bias = true;         ///< the same in both stretches: they are of one drive
   double outlier_share = 0.05;  ///< of readings beside something that moved
 };
 
@@ -59,7 +60,7 @@ struct FieldEvidence {
 };
 
 /// Compares readings of a stretch with those of an older one, frame a, the newer one's frame being at
-/// `a_T_b`; the sensor's bias, the same in both, is estimated within.
+/// `a_T_b`; the bias of the sensor (of each drive's) is estimated within.
 FieldEvidence field_evidence(std::span<const FieldAt> older_a, std::span<const FieldAt> newer_b, const Pose2& a_T_b,
                              const FieldVariogram& variogram, const FieldEvidenceOptions& options = {});
 

@@ -50,9 +50,10 @@ struct LoopCounts {
 /// the graph leaves possible; scans and field together say which of the matches, if any, is right.
 class LoopCloser {
  public:
-  explicit LoopCloser(const Eigen::Vector2d& magnetometer_base_m, const LoopCloserOptions& options = {})
-      : magnetometer_base_m_(magnetometer_base_m), options_(options) {}
+  explicit LoopCloser(const LoopCloserOptions& options = {}) : options_(options) {}
 
+  /// What follows is another drive, by another robot perhaps: nothing is joined across.
+  void begin_drive(const Eigen::Vector2d& magnetometer_base_m);
   /// The next keyframe, of which the graph already has the pose.
   void add(const Keyframe& keyframe);
   /// Closures of the last keyframe, if it is time to look.
@@ -79,8 +80,9 @@ class LoopCloser {
   std::optional<Closure> close(std::size_t submap, const Stretch& stretch, const PosePrior& prior);
   void let_go_where_known(std::size_t submap, const Closure& closure);
 
-  Eigen::Vector2d magnetometer_base_m_;
   LoopCloserOptions options_;
+  int drive_ = -1;
+  Eigen::Vector2d magnetometer_base_m_{0, 0};
   std::vector<Submap> submaps_;
   std::vector<Keyframe> open_;    ///< of the submap being made
   std::deque<Keyframe> stretch_;  ///< the last metres

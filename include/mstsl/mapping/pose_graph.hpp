@@ -45,10 +45,12 @@ class PoseGraph {
  public:
   explicit PoseGraph(const PoseGraphOptions& options = {}) : options_(options) {}
 
-  /// Appends a pose that hangs on the last one; the first pose of all is the map's origin and its link is
-  /// not looked at.
+  /// Appends a pose that hangs on the last one, or not at all where the link knows nothing; the first pose of
+  /// all is the map's origin.
   void add(const ChainLink& link);
   void add(const Closure& closure) { closures_.push_back(closure); }
+  /// Moves the poses from `first` on as one rigid piece, so that pose `i` of them comes to `to`.
+  void move_tail(std::size_t first, std::size_t i, const Pose2& to);
 
   /// Moves all poses to where they are most probable; closures that then do not fit are refuted and left
   /// out.

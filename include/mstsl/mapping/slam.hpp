@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "mstsl/core/result.hpp"
 #include "mstsl/core/sensor_data.hpp"
 #include "mstsl/core/trajectory.hpp"
 #include "mstsl/mapping/bent_track.hpp"
+#include "mstsl/mapping/laser_odometry.hpp"
 #include "mstsl/mapping/loop_closer.hpp"
 #include "mstsl/mapping/pose_graph.hpp"
 #include "mstsl/mapping/scan_chain.hpp"
@@ -14,56 +17,90 @@
 namespace mstsl {
 
 struct SlamOptions {
+  bool without_wheels = false;  ///< the log has no odometry: the laser must do
   ScanChainOptions chain;
   LoopCloserOptions loops;
   PoseGraphOptions graph;
 };
 
-/// Where the robot was on a drive through a building of which nothing was known.
-struct SlamTrack {
-  /// At each odometry reading and each matched scan; the map's origin is the base at the first scan.
-  Trajectory map_T_base;
-  std::vector<TimedPose> keyframes;
-  std::vector<Closure> closures;
-  LoopCounts loops;
-  WheelCalibration wheels;
-  double way_m = 0.0;
-  double mean_score = 0.0;  ///< of scans matched to those just before them, 0 .. 1
-  std::size_t scans = 0;
-  std::size_t breaks = 0;   ///< of odometry
+/// Where a drive was at some time, in the map of the drives before it.
+struct Anchor {
+  Stamp stamp;
+  Pose2 map_T_base;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< x, y, yaw; map frame
 };
 
-/// Simultaneous localization and mapping of one drive: a chain of keyframes (ScanChain), loops found by scans
-/// and field together (LoopCloser), all poses by least squares (PoseGraph). Feed it in time order; the answer
-/// is given at the end.
+/// Where the robot was on one drive.
+struct DriveTrack {
+  Trajectory map_T_base;  ///< at each odometry reading and each matched scan
+  double way_m = 0.0;
+  std::size_t scans = 0;
+  std::size_t breaks = 0;  ///< of odometry
+};
+
+/// Where the robot was on drives through a building of which nothing was known. The map's origin is the base
+/// at the first scan of the first drive.
+struct SlamTrack {
+  std::vector<DriveTrack> drives;
+  struct Keyframe {
+    std::size_t drive;
+    Stamp stamp;
+    Pose2 map_T_base;
+  };
+  std::vector<Keyframe> keyframes;
+  std::vector<Closure> closures;  ///< between keyframes
+  LoopCounts loops;
+  WheelCalibration wheels;
+  double mean_score = 0.0;  ///< of scans matched to those just before them, 0 .. 1
+
+  double way_m() const;
+  std::size_t scans() const;
+};
+
+/// Simultaneous localization and mapping: chains of keyframes (ScanChain), loops found by scans and field
+/// together (LoopCloser), all poses by least squares (PoseGraph). Feed it a drive in time order; then another,
+/// if it is known where that was at some time.
 class Slam {
  public:
-  explicit Slam(const Rig& rig, const SlamOptions& options = {});
+  explicit Slam(const SlamOptions& options = {});
 
-  void observe(const OdometryReading& odometry) { chain_.observe(odometry), advance(); }
-  void observe(const OdometryRestart& restart) { chain_.observe(restart); }
-  void observe(const LaserScan& scan) { chain_.observe(scan), advance(); }
-  void observe(const FieldReading& field) { chain_.observe(field); }
+  /// What follows is one drive. All but the first need an anchor.
+  void begin_drive(const Rig& rig, const std::optional<Anchor>& anchor = {});
+  void observe(const OdometryReading& odometry);
+  void observe(const OdometryRestart& restart) { chain().observe(restart); }
+  void observe(const LaserScan& scan);
+  void observe(const FieldReading& field) { chain().observe(field); }
 
-  /// Errors: no odometry, no scan near a time with odometry.
-  Result<SlamTrack> finish();
+  /// Ends the drive; where the robot was on all of them so far. Errors: no odometry, no scan near a time with
+  /// odometry, a drive that ended before its anchor.
+  Result<SlamTrack> track();
 
  private:
-  void advance();
-  void add(const Keyframe& keyframe);
-  void optimise();
-  /// Where odometry had the robot at each matched scan, and where it was.
-  std::vector<TrackKnot> scans_on_track(const Trajectory& scans) const;
-
-  SlamOptions options_;
-  ScanChain chain_;
-  LoopCloser loops_;
-  PoseGraph graph_;
+  struct Drive {
+    ScanChain chain;
+    std::optional<LaserOdometry> laser_odometry;
+    std::optional<Anchor> anchor;  ///< until it has been used
+    std::size_t first = 0;         ///< of its keyframes
+    double begin_m = 0.0;          ///< way of the drives before
+  };
   struct Kept {
+    std::size_t drive;
     Stamp stamp;
     Pose2 track_T_base, chain_T_base;
     double score;
   };
+  ScanChain& chain() { return drives_.back()->chain; }
+  void advance();
+  void add(Keyframe keyframe);
+  void use_anchor(Drive& drive);
+  void look();
+  void optimise();
+  DriveTrack track_of(std::size_t drive) const;
+
+  SlamOptions options_;
+  std::vector<std::unique_ptr<Drive>> drives_;
+  LoopCloser loops_;
+  PoseGraph graph_;
   std::vector<Kept> kept_;
   std::size_t optimised_at_ = 0;  ///< poses then
   bool closed_since_ = false;

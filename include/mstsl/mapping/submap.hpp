@@ -35,6 +35,8 @@ Stretch stretch_of(std::span<const Keyframe> keyframes, std::size_t origin, cons
 /// A stretch made ready for finding later scans in it. Frame: the base at its middle keyframe.
 struct Submap {
   std::size_t first = 0, last = 0, origin = 0;  ///< keyframes
+  int drive = 0;                                ///< of which it is a part: one sensor, one bias
+  Eigen::Vector2d magnetometer_base_m{0, 0};    ///< where that drive's magnetometer sits
   double begin_m = 0.0, end_m = 0.0;            ///< travelled
   std::vector<Keyframe> keyframes;              ///< empty once another submap shows the same place
   std::vector<Eigen::Vector2d> way_m;           ///< places of the keyframes in the submap's frame
@@ -42,7 +44,7 @@ struct Submap {
 
 /// What matching needs of a submap; made from its keyframes when it is first asked for.
 struct SubmapWalls {
-  SubmapWalls(const Submap& submap, const Eigen::Vector2d& magnetometer_base_m);
+  explicit SubmapWalls(const Submap& submap);
 
   ScannedWalls walls;                    ///< for fitting
   std::unique_ptr<const MatchMap> cells;  ///< for searching, coarser

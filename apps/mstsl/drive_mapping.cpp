@@ -1,0 +1,221 @@
+#include "drive_mapping.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "mstsl/io/recording_info.hpp"
+#include "mstsl/localize/methods.hpp"
+#include "mstsl/magnetic/field_map_builder.hpp"
+#include "mstsl/mapping/track_drawer.hpp"
+
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "survey_reader.hpp"
+
+namespace mstsl::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Logs = std::vector<fs::path>;
+
+std::string name_of(const Logs& logs) {
+  return logs.front().string() + (logs.size() > 1 ? " and others" : "");
+}
+
+std::vector<Logs> drives_of(const DrivesWish& wish) {
+  if (wish.continuous) return {wish.logs};
+  std::vector<Logs> drives;
+  for (const fs::path& log : wish.logs) drives.push_back({log});
+  return drives;
+}
+
+enum class Reading { kOdometry, kField };
+
+bool all_hold(const Logs& logs, Reading kind, const std::string& topic) {
+  return std::all_of(logs.begin(), logs.end(), [&](const fs::path& log) {
+    const auto info = io::describe_recording(log);
+    if (!info) return true;  // complained of when it is played
+    // A CARMEN log has no topics; it holds scans and odometry.
+    if (info->format == "CARMEN log") return kind == Reading::kOdometry;
+    return std::any_of(info->topics.begin(), info->topics.end(),
+                       [&](const io::TopicInfo& t) { return t.name == topic && t.messages > 0; });
+  });
+}
+
+template <typename Consumer>
+void hand_over(Consumer& consumer, const SensorEvent& event) {
+  std::visit(
+      [&](const auto& reading) {
+        if constexpr (requires { consumer.observe(reading); }) consumer.observe(reading);
+      },
+      event);
+}
+
+/// io::play with a bar; an interrupt is an error.
+Result<io::PlayReport> play_drive(const Session& session, const Logs& logs, const io::PlayOptions& play,
+                                  const std::string& what,
+                                  const std::function<void(const io::RecordingHeader&)>& on_header,
+                                  const std::function<bool(const SensorEvent&)>& on_event) {
+  Progress progress(what, session.quiet);
+  const auto begin = io::describe_recording(logs.front()), end = io::describe_recording(logs.back());
+  const bool known = begin && end && begin->first && end->last;
+  const double seconds = known ? std::max(*end->last - *begin->first, 1e-3) : 1.0;
+  auto played = io::play(logs, play, on_header, [&](const SensorEvent& event) {
+    if (known) progress.show((stamp_of(event) - *begin->first) / seconds);
+    return on_event(event) && !interrupted();
+  });
+  if (played && interrupted()) return Error("interrupted; nothing was written");
+  return played;
+}
+
+class DriveMapper {
+ public:
+  DriveMapper(const Session& session, const DrivesWish& wish)
+      : session_(session), wish_(wish), drives_(drives_of(wish)), slam_(options_of(wish)) {
+    play_ = wish.play;
+    play_.topics.imu.clear();
+    play_.topics.pose.clear();
+    if (wish.without_field || !all_hold(wish.logs, Reading::kField, play_.topics.magnetic_field)) play_.topics.magnetic_field.clear();
+    if (!all_hold(wish.logs, Reading::kOdometry, play_.topics.odometry)) {
+      warnings_.push_back(fmt::format("there is no odometry under {}: the way is found by scans alone, which cannot "
+                                      "tell how far the robot goes along a bare corridor",
+                                      play_.topics.odometry));
+      play_.topics.odometry.clear();
+    }
+  }
+
+  Result<MappedDrives> map() {
+    if (drives_.size() > 1 && play_.topics.magnetic_field.empty())
+      return Error(
+          "drives are joined by their magnetic field, and not all logs have it; map them one by one, or give "
+          "--continuous if each log begins where the one before ended");
+    for (std::size_t k = 0; k < drives_.size(); ++k)
+      if (const auto error = add_drive(k)) return *error;
+    MappedDrives mapped{.grid = {}, .track = *track_, .play = play_, .warnings = {}, .truth = {}};
+    Result<OccupancyGrid> grid = draw(drives_.size(), {.map = wish_.drawing}, &mapped.truth);
+    if (!grid) return grid.error();
+    if (count(*grid, CellState::kFree) == 0) return Error(name_of(wish_.logs) + ": no scan showed any free ground");
+    mapped.grid = std::move(grid).value();
+    mapped.warnings = std::move(warnings_);
+    return mapped;
+  }
+
+ private:
+  SlamOptions options_of(const DrivesWish& wish) const {
+    SlamOptions options = wish.slam;
+    options.loops.use_field = !wish.without_field;
+    options.without_wheels = !all_hold(wish.logs, Reading::kOdometry, wish.play.topics.odometry);
+    return options;
+  }
+
+  std::string step(const char* what, std::size_t k) const {
+    return drives_.size() == 1 ? what : fmt::format("{}, drive {} of {}", what, k + 1, drives_.size());
+  }
+
+  std::optional<Error> add_drive(std::size_t k) {
+    std::optional<Anchor> anchor;
+    if (k > 0) {
+      Result<Anchor> found = locate(k);
+      if (!found) return found.error();
+      anchor = *found;
+    }
+    bool begun = false;
+    const auto played = play_drive(
+        session_, drives_[k], play_, step("finding the way", k),
+        [&](const io::RecordingHeader& header) { slam_.begin_drive(header.rig, anchor), begun = true; },
+        [&](const SensorEvent& event) { return hand_over(slam_, event), true; });
+    if (!played) return played.error();
+    for (const std::string& warning : played->warnings) warnings_.push_back(warning);
+    if (!begun) return Error(name_of(drives_[k]) + ": the log is empty");
+    Result<SlamTrack> track = slam_.track();
+    if (!track) return track.error().within(name_of(drives_[k]));
+    track_ = std::move(track).value();
+    return std::nullopt;
+  }
+
+  /// The map of the first drives so far; and what the truth's topic says, if asked for.
+  Result<OccupancyGrid> draw(std::size_t drives, const TrackDrawerOptions& options,
+                             std::vector<std::vector<PoseReading>>* truth) {
+    io::PlayOptions play = play_;
+    play.topics.magnetic_field.clear();
+    play.topics.odometry.clear();
+    if (truth != nullptr) play.topics.pose = wish_.truth_topic;
+    TrackDrawer drawer(options);
+    for (std::size_t k = 0; k < drives; ++k) {
+      if (truth != nullptr) truth->emplace_back();
+      const auto played = play_drive(
+          session_, drives_[k], play, step("drawing", k),
+          [&](const io::RecordingHeader& header) { drawer.begin_drive(header.rig, track_->drives[k].map_T_base); },
+          [&](const SensorEvent& event) {
+            hand_over(drawer, event);
+            if (const auto* pose = std::get_if<PoseReading>(&event); pose != nullptr && truth != nullptr)
+              truth->back().push_back(*pose);
+            return true;
+          });
+      if (!played) return played.error();
+    }
+    Result<OccupancyGrid> grid = drawer.grid();
+    if (!grid) return grid.error().within(name_of(wish_.logs));
+    return grid;
+  }
+
+  /// Where drive k was at some time, on the map of those before it: the joint method drives along until it is
+  /// sure.
+  Result<Anchor> locate(std::size_t k) {
+    // Enough to find a place in.
+    Result<OccupancyGrid> grid = draw(k, {.map = wish_.drawing, .every_m = 0.5, .every_rad = 0.5}, nullptr);
+    if (!grid) return grid.error();
+    Logs logs;
+    std::vector<Trajectory> tracks;
+    for (std::size_t i = 0; i < k; ++i)
+      logs.push_back(drives_[i].front()), tracks.push_back(track_->drives[i].map_T_base);
+    const auto survey = collect_fingerprints(session_, logs, play_, tracks);
+    if (!survey) return survey.error();
+    FieldMapOptions options{.resolution_m = 0.1};
+    options.threads = session_.threads;
+    Result<FieldMap> field = build_field_map(survey->fingerprints, &*grid, options);
+    if (!field) return field.error().within(name_of(logs));
+    auto maps = make_localization_maps(std::move(grid).value(), std::move(field).value(), {.threads = session_.threads});
+    if (!maps) return maps.error().within(name_of(logs));
+    auto joint = make_method("joint", *maps, {.threads = session_.threads});
+    if (!joint) return joint.error();
+    std::optional<AnyLocalizer> localizer;
+    std::optional<Anchor> anchor;
+    const auto played = play_drive(
+        session_, drives_[k], play_, step("finding the start", k),
+        [&](const io::RecordingHeader& header) { localizer.emplace((*joint)(header.rig)); },
+        [&](const SensorEvent& event) {
+          feed(*localizer, event);
+          const Estimate estimate = localizer->estimate();
+          if (estimate.map_T_base) anchor = {estimate.stamp, *estimate.map_T_base, estimate.covariance};
+          return !anchor.has_value();
+        });
+    if (!played) return played.error();
+    if (!anchor)
+      return Error(fmt::format("{}: the drive could not be found in the map of those before it; does it go where they "
+                               "went? Give --continuous if it begins where the last one ended",
+                               name_of(drives_[k])));
+    return *anchor;
+  }
+
+  const Session& session_;
+  const DrivesWish& wish_;
+  std::vector<Logs> drives_;
+  io::PlayOptions play_;
+  Slam slam_;
+  std::optional<SlamTrack> track_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+Result<MappedDrives> map_drives(const Session& session, const DrivesWish& wish) {
+  return DriveMapper(session, wish).map();
+}
+
+}  // namespace mstsl::app
