@@ -113,7 +113,10 @@ std::string drive_report_json(const MappedDrives& mapped) {
                                            {"closed_only_with_field", track.loops.earlier_by_field}}},
                                          {"closures", closures}};
   if (const auto truth = against_truth(mapped))
-    report["against_truth"] = {{"ate_rms_m", truth->absolute.rms_m},
+    report["against_truth"] = {{"true_T_map",
+                                {truth->absolute.true_T_map.x, truth->absolute.true_T_map.y,
+                                 truth->absolute.true_T_map.yaw}},
+                               {"ate_rms_m", truth->absolute.rms_m},
                                {"ate_max_m", truth->absolute.max_m},
                                {"metre", relation_json(truth->local)},
                                {"loops", relation_json(truth->loops)}};

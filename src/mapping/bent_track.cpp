@@ -1,7 +1,5 @@
 #include "mstsl/mapping/bent_track.hpp"
 
-#include <algorithm>
-
 #include "mstsl/core/angles.hpp"
 
 namespace mstsl {
@@ -23,8 +21,12 @@ Trajectory bent_track(std::span<const TimedPose> track_T_base, std::span<const T
       continue;
     }
     const TrackKnot& b = knots[next];
+    if (at.stamp >= b.stamp) {
+      bent.add(at.stamp, b.map_T_base * between(b.track_T_base, at.pose));
+      continue;
+    }
     const Pose2 to_b = a.map_T_base * between(a.track_T_base, b.track_T_base);
-    const double share = std::clamp((at.stamp - a.stamp) / (b.stamp - a.stamp), 0.0, 1.0);
+    const double share = (at.stamp - a.stamp) / (b.stamp - a.stamp);
     bent.add(at.stamp,
              Pose2::from(from_a.position() + share * (b.map_T_base.position() - to_b.position()),
                          from_a.yaw + share * angle_between(to_b.yaw, b.map_T_base.yaw)));

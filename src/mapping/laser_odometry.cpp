@@ -6,9 +6,10 @@
 namespace mstsl {
 
 LaserOdometry::LaserOdometry(const Rig& rig, const LaserOdometryOptions& options)
-    : rig_(rig), options_(options), walls_({0, 0}) {}
+    : rig_(rig), options_(options), walls_(options.recent_m) {}
 
-OdometryReading LaserOdometry::observe(const LaserScan& scan) {
+std::optional<OdometryReading> LaserOdometry::observe(const LaserScan& scan) {
+  if (last_ && scan.stamp - *last_ < options_.every_s) return std::nullopt;
   std::vector<BeamReturn> returns = beam_returns(scan, rig_.base_T_laser, motion_);
   std::erase_if(returns,
                 [&](const BeamReturn& r) { return (r.point_m - r.origin_m).norm() > options_.max_range_m; });
@@ -21,33 +22,26 @@ OdometryReading LaserOdometry::observe(const LaserScan& scan) {
     const double times = goes_on ? seconds / interval_s_ : 0.0;
     const Pose2 expected{times * motion_.x, times * motion_.y, times * motion_.yaw};
     const Pose2 from = odom_T_base_;
-    const double wide = goes_on ? 1.0 : 2.0;
-    const Eigen::Vector3d sd(wide * options_.shift_sd_m, wide * options_.shift_sd_m, wide * options_.turn_sd_rad);
+    const double wide_s = std::min(1.0, goes_on ? seconds : 2.0 * seconds);
+    const double shift_sd_m = 0.005 + wide_s * options_.speed_sd_m_s;
+    const Eigen::Vector3d sd(shift_sd_m, shift_sd_m, 0.005 + wide_s * options_.turn_rate_sd_rad_s);
     const PosePrior prior{from * expected, sd.cwiseAbs2().asDiagonal()};
-    WallFit fit = fit_to_walls(walls_, points, prior, options_.fit);
+    WallFit fit = fit_to_walls(walls_.walls(), points, prior, options_.fit);
     if (fit.score < options_.search_below) {
-      const WallFit around = fit_around(walls_, points, prior.mean, options_.around, options_.fit);
+      const WallFit around = fit_around(walls_.walls(), points, prior.mean, options_.around, options_.fit);
       if (around.score > fit.score + 0.1) fit = around;
     }
     odom_T_base_ = fit.map_T_base;
     motion_ = between(from, odom_T_base_);
     interval_s_ = seconds;
   }
-  const double moved_m = distance(drawn_, odom_T_base_);
   constexpr double kDrawn_m = 0.25, kDrawn_rad = 0.15;
-  if (!last_ || moved_m > kDrawn_m || std::abs(angle_between(drawn_.yaw, odom_T_base_.yaw)) > kDrawn_rad) {
-    since_redrawn_m_ += moved_m;
-    if (since_redrawn_m_ > options_.redrawn_after_m) {
-      // The walls here are still in this scan and in the next ones.
-      ScannedWalls fresh(odom_T_base_.position());
-      walls_ = std::move(fresh);
-      since_redrawn_m_ = 0.0;
-    }
+  if (!last_ || distance(drawn_, odom_T_base_) > kDrawn_m || std::abs(angle_between(drawn_.yaw, odom_T_base_.yaw)) > kDrawn_rad) {
     walls_.add(faced, odom_T_base_);
     drawn_ = odom_T_base_;
   }
   last_ = scan.stamp;
-  return {scan.stamp, odom_T_base_};
+  return OdometryReading{scan.stamp, odom_T_base_};
 }
 
 }  // namespace mstsl

@@ -37,7 +37,7 @@ Eigen::Matrix3d in_base(const Eigen::Matrix3d& information_in_map, double yaw_ra
 }  // namespace
 
 ScanChain::ScanChain(const Rig& rig, const ScanChainOptions& options)
-    : rig_(rig), options_(options), stations_(rig, options.stations), walls_({0, 0}, options.walls) {}
+    : rig_(rig), options_(options), stations_(rig, options.stations), walls_(options.recent_m, options.walls) {}
 
 void ScanChain::observe(const OdometryReading& odometry) {
   track_.add(odometry);
@@ -93,16 +93,16 @@ bool ScanChain::is_due(Stamp stamp, const Pose2& track_T_base) const {
 }
 
 WallFit ScanChain::matched(const PointSet& points, const PosePrior& prior) const {
-  WallFit best = fit_to_walls(walls_, points, prior, options_.fit);
+  WallFit best = fit_to_walls(walls_.walls(), points, prior, options_.fit);
   const auto consider = [&](const WallFit& fit, double gain) {
     if (fit.score > best.score + gain) best = fit;
   };
   // Wheels that slipped, or whose readings got lost, are off by more than their usual error.
   const Eigen::Matrix3d wide = options_.slipped * options_.slipped * prior.covariance;
-  consider(fit_to_walls(walls_, points, {prior.mean, wide}, options_.fit), options_.slip_gain);
+  consider(fit_to_walls(walls_.walls(), points, {prior.mean, wide}, options_.fit), options_.slip_gain);
   if (best.score >= options_.search_below) return best;
   constexpr Surroundings kNear{.steps = 1, .step_m = 0.2, .corners = true, .turns = 3, .turn_rad = 0.04};
-  consider(fit_around(walls_, points, prior.mean, kNear, options_.fit), options_.search_gain);
+  consider(fit_around(walls_.walls(), points, prior.mean, kNear, options_.fit), options_.search_gain);
   return best;
 }
 
@@ -113,7 +113,7 @@ WallFit ScanChain::found_again(const PointSet& points, const Pose2& about, doubl
   Surroundings around{.step_m = 0.25, .corners = true, .turn_rad = 0.06};
   around.steps = static_cast<int>(std::ceil(most_m / around.step_m));
   around.turns = static_cast<int>(std::ceil(most_rad / around.turn_rad));
-  return fit_around(walls_, points, about, around, options_.fit);
+  return fit_around(walls_.walls(), points, about, around, options_.fit);
 }
 
 double ScanChain::longest_silence_s(Stamp stamp) const {
@@ -138,15 +138,16 @@ void ScanChain::add(const LaserScan& scan, const Pose2& track_T_base, const Pose
   const double silent_s = broken ? options_.break_s : longest_silence_s(scan.stamp);
   broken_since_keyframe_ |= silent_s > options_.silence_s;
   if (at_) place(keyframe, silent_s);
-  const bool is_keyframe = recent_.empty() || broken_since_keyframe_ ||
-                           moved(recent_.back().track_T_base, track_T_base, 1.0) ||
-                           moved(recent_.back().chain_T_base, keyframe.chain_T_base, 1.0);
+  const bool is_keyframe = !last_keyframe_ || broken_since_keyframe_ ||
+                           moved(last_keyframe_->track_T_base, track_T_base, 1.0) ||
+                           moved(last_keyframe_->chain_T_base, keyframe.chain_T_base, 1.0);
   at_ = At{scan.stamp, track_T_base, keyframe.chain_T_base};
   matched_scans_.push_back({scan.stamp, keyframe.chain_T_base});
   if (!is_keyframe) return;
   keyframe.broken = std::exchange(broken_since_keyframe_, false);
   keyframe.stations = stations_.take(track_T_base);
-  draw(keyframe);
+  walls_.add(keyframe.points_base_m, keyframe.chain_T_base);
+  last_keyframe_ = at_;
   made_.push_back(std::move(keyframe));
 }
 
@@ -164,22 +165,6 @@ void ScanChain::place(Keyframe& keyframe, double silent_s) const {
   keyframe.chain_T_base = fit.score < options_.least_score ? prior.mean : fit.map_T_base;
   if (fit.score >= options_.least_score)
     keyframe.scan_information = in_base(fit.information, fit.map_T_base.yaw);
-}
-
-void ScanChain::draw(const Keyframe& keyframe) {
-  recent_.push_back(keyframe);
-  recent_.back().stations.clear();
-  constexpr std::size_t kMost = 150;  // who turns on the spot all day has no older ones by the way driven
-  while (recent_.size() > 1 && (recent_.size() > kMost ||
-                                keyframe.travelled_m - recent_.front().travelled_m > options_.recent_m))
-    recent_.pop_front();
-  // Begun anew now and then, so that only the last metres are in it and the robot stays near its middle.
-  const bool anew = ++drawn_since_ > recent_.size() + 10 ||
-                    (keyframe.chain_T_base.position() - walls_.center_m()).norm() > 0.4 * options_.walls.half_size_m;
-  if (!anew) return walls_.add(keyframe.points_base_m, keyframe.chain_T_base);
-  walls_ = ScannedWalls(keyframe.chain_T_base.position(), options_.walls);
-  for (const Keyframe& k : recent_) walls_.add(k.points_base_m, k.chain_T_base);
-  drawn_since_ = 0;
 }
 
 std::vector<Keyframe> ScanChain::take() { return std::exchange(made_, {}); }

@@ -57,7 +57,8 @@ void Slam::observe(const OdometryReading& odometry) {
 }
 
 void Slam::observe(const LaserScan& scan) {
-  if (auto& laser = drives_.back()->laser_odometry) chain().observe(laser->observe(scan));
+  if (auto& laser = drives_.back()->laser_odometry)
+    if (const auto reading = laser->observe(scan)) chain().observe(*reading);
   chain().observe(scan);
   advance();
 }

@@ -13,6 +13,7 @@
 #include "mstsl/localize/motion_noise.hpp"
 #include "mstsl/localize/odometry_track.hpp"
 #include "mstsl/mapping/keyframe.hpp"
+#include "mstsl/mapping/recent_walls.hpp"
 #include "mstsl/mapping/wheels.hpp"
 #include "mstsl/scan/fit_around.hpp"
 #include "mstsl/scan/scanned_walls.hpp"
@@ -93,7 +94,6 @@ class ScanChain {
   WallFit matched(const PointSet& points, const PosePrior& prior) const;
   WallFit found_again(const PointSet& points, const Pose2& about, double silent_s) const;
   double longest_silence_s(Stamp stamp) const;
-  void draw(const Keyframe& keyframe);
 
   Rig rig_;
   ScanChainOptions options_;
@@ -104,7 +104,7 @@ class ScanChain {
   std::deque<LaserScan> waiting_scans_;
   std::deque<FieldReading> waiting_fields_;
   joint::StationCollector stations_;
-  ScannedWalls walls_;
+  RecentWalls walls_;
   /// The last scan that was matched.
   struct At {
     Stamp stamp;
@@ -112,8 +112,7 @@ class ScanChain {
   };
   std::optional<At> at_;
   bool broken_since_keyframe_ = false;
-  std::deque<Keyframe> recent_;  ///< drawn in walls_
-  std::size_t drawn_since_ = 0;  ///< keyframes since walls_ were begun anew
+  std::optional<At> last_keyframe_;
   std::vector<Keyframe> made_;
   std::uint64_t breaks_at_last_ = 0;
   std::size_t scans_ = 0;
