@@ -7,6 +7,7 @@
 #include <variant>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/eval/trajectory_error.hpp"
@@ -54,14 +55,28 @@ double thread_cpu_s() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-Result<Recording> record(const sim::World& world, const MappingProtocolOptions& options, const Random& random) {
+Result<sim::RobotOptions> robot_named(const std::string& name) {
+  sim::RobotOptions robot;
+  if (name == "good") {
+    robot.lidar.rate_hz = 10.0, robot.lidar.beams = 541;
+    return robot;
+  }
+  if (name != "cheap") return Error(fmt::format("there is no robot '{}'; there are good and cheap", name));
+  robot.lidar = {.rate_hz = 5.5, .field_of_view_rad = radians(359.0), .beams = 360, .sweep_s = 0.18, .range_max_m = 8.0,
+                 .near_noise_m = 0.02};
+  robot.odometry.scale_sigma = 0.06;
+  robot.odometry.drift_sigma_rad_per_m = radians(2.0);
+  return robot;
+}
+
+Result<Recording> record(const sim::World& world, const std::string& robot_name, const MappingProtocolOptions& options,
+                         const Random& random) {
   const auto route = tour(world, options.length_m, random.fork(kTourStream));
   if (!route) return route.error();
-  sim::RobotOptions robot;
-  robot.lidar.rate_hz = options.scan_rate_hz;
-  robot.lidar.beams = options.beams;
-  Recording recording{.rig = robot.rig, .events = {}, .truth = {}};
-  sim::drive(world, robot, *route, Stamp{}, random.fork(kDriveStream),
+  const Result<sim::RobotOptions> robot = robot_named(robot_name);
+  if (!robot) return robot.error();
+  Recording recording{.rig = robot->rig, .events = {}, .truth = {}};
+  sim::drive(world, *robot, *route, Stamp{}, random.fork(kDriveStream),
              {[&](const SensorEvent& event) { recording.events.push_back(event); },
               [&](const PoseReading& pose) { recording.truth.add(pose.stamp, pose.map_T_base); }});
   return recording;
@@ -137,8 +152,11 @@ Result<MappingRecord> mapped(const Recording& recording, const OccupancyGrid& tr
 
 }  // namespace
 
+std::vector<std::string> mapping_robot_names() { return {"good", "cheap"}; }
+
 Result<std::vector<MappingRecord>> run_mapping_protocol(const MappingProtocolOptions& options) {
-  const std::size_t runs = options.worlds.size() * static_cast<std::size_t>(options.runs);
+  const std::size_t places = options.worlds.size() * static_cast<std::size_t>(options.runs);
+  const std::size_t runs = places * options.robots.size();
   std::vector<Result<std::vector<MappingRecord>>> made(runs, Error("not made"));
   std::mutex lock;
   std::size_t done = 0;
@@ -148,20 +166,22 @@ Result<std::vector<MappingRecord>> run_mapping_protocol(const MappingProtocolOpt
       const std::lock_guard guard(lock);
       if (ended) return;
     }
-    const std::string& name = options.worlds[i / static_cast<std::size_t>(options.runs)];
-    const int run = static_cast<int>(i % static_cast<std::size_t>(options.runs));
-    const Random random = Random(options.seed).fork(i);
+    const std::size_t place = i % places;
+    const std::string& robot = options.robots[i / places];
+    const std::string& name = options.worlds[place / static_cast<std::size_t>(options.runs)];
+    const int run = static_cast<int>(place % static_cast<std::size_t>(options.runs));
+    const Random random = Random(options.seed).fork(place);
     made[i] = [&]() -> Result<std::vector<MappingRecord>> {
       const auto world = sim::make_world(name, {}, random.fork(kWorldStream));
       if (!world) return world.error();
-      const auto recording = record(*world, options, random);
+      const auto recording = record(*world, robot, options, random);
       if (!recording) return recording.error().within(name);
       const OccupancyGrid true_map = sim::occupancy_map(*world);
       std::vector<MappingRecord> records;
       for (const bool with_field : {false, true}) {
         auto record = mapped(*recording, true_map, with_field);
         if (!record) return record.error().within(name);
-        record->world = name, record->run = run;
+        record->world = name, record->robot = robot, record->run = run;
         records.push_back(*record);
       }
       return records;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,11 +21,14 @@ struct Row {
   double cpu_s = 0.0, driven_s = 0.0, driven_m = 0.0;
 };
 
-/// By world in the order of the records, first without the field.
-std::vector<std::pair<std::pair<std::string, bool>, Row>> rows_of(std::span<const MappingRecord> records) {
-  std::vector<std::pair<std::pair<std::string, bool>, Row>> rows;
+/// Robot, world, with the field.
+using Key = std::tuple<std::string, std::string, bool>;
+
+/// In the order of the records.
+std::vector<std::pair<Key, Row>> rows_of(std::span<const MappingRecord> records) {
+  std::vector<std::pair<Key, Row>> rows;
   for (const MappingRecord& r : records) {
-    const std::pair key(r.world, r.with_field);
+    const Key key(r.robot, r.world, r.with_field);
     auto at = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.first == key; });
     if (at == rows.end()) at = rows.insert(rows.end(), {key, Row{}});
     Row& row = at->second;
@@ -41,11 +45,11 @@ std::vector<std::pair<std::pair<std::string, bool>, Row>> rows_of(std::span<cons
 }  // namespace
 
 std::string mapping_text(std::span<const MappingRecord> records) {
-  std::string text = fmt::format("{:<16} {:<7} {:>4} {:>8} {:>6} {:>11} {:>8} {:>22} {:>9} {:>8}\n", "world", "by", "runs",
+  std::string text = fmt::format("{:<6} {:<16} {:<7} {:>4} {:>8} {:>6} {:>11} {:>8} {:>22} {:>9} {:>8}\n", "robot", "world", "by", "runs",
                                  "closures", "wrong", "wrong maps", "refuted", "ATE m median/95%/max", "map off", "x real");
   for (const auto& [key, row] : rows_of(records))
-    text += fmt::format("{:<16} {:<7} {:>4} {:>8} {:>6} {:>11} {:>8} {:>22} {:>8.1f}% {:>8.0f}\n", key.first,
-                        key.second ? "field" : "scans", row.runs, row.closures, row.wrong, row.runs_with_wrong, row.refuted,
+    text += fmt::format("{:<6} {:<16} {:<7} {:>4} {:>8} {:>6} {:>11} {:>8} {:>22} {:>8.1f}% {:>8.0f}\n", std::get<0>(key),
+                        std::get<1>(key), std::get<2>(key) ? "field" : "scans", row.runs, row.closures, row.wrong, row.runs_with_wrong, row.refuted,
                         fmt::format("{:.3f}/{:.3f}/{:.3f}", quantile(row.ate_m, 0.5), quantile(row.ate_m, 0.95),
                                     quantile(row.ate_m, 1.0)),
                         100 * quantile(row.map_error, 0.5), row.driven_s / row.cpu_s);
@@ -56,7 +60,8 @@ std::string mapping_json(std::span<const MappingRecord> records, const MappingPr
                          const std::string& commit) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const MappingRecord& r : records)
-    runs.push_back({{"world", r.world},
+    runs.push_back({{"robot", r.robot},
+                    {"world", r.world},
                     {"run", r.run},
                     {"with_field", r.with_field},
                     {"driven_m", r.driven_m},
