@@ -39,7 +39,10 @@ GridGeometry square(const Eigen::Vector2d& center_m, const ScannedWallsOptions& 
 }  // namespace
 
 std::vector<FacedPoint> faced_points(const std::vector<BeamReturn>& returns, double max_gap_m) {
-  constexpr std::size_t kToEachSide = 3;
+  // Three neighbours to each side, and near the laser, where beams lie closer than their noise, all within
+  // 0.2 m: a shorter piece of wall faces anywhere.
+  constexpr std::size_t kToEachSide = 3, kMost = 30;
+  constexpr double kHalf_m = 0.2;
   std::vector<FacedPoint> faced;
   if (returns.size() < 3) return faced;
   const auto joined = [&](std::size_t a, std::size_t b) {
@@ -52,8 +55,11 @@ std::vector<FacedPoint> faced_points(const std::vector<BeamReturn>& returns, dou
   for (std::size_t i = 0; i + 1 < returns.size(); ++i) to_next[i] = joined(i, i + 1);
   for (std::size_t i = 0; i < returns.size(); ++i) {
     std::size_t first = i, last = i;
-    while (first > 0 && i - first < kToEachSide && to_next[first - 1]) --first;
-    while (last + 1 < returns.size() && last - i < kToEachSide && to_next[last]) ++last;
+    const auto near = [&](std::size_t k, std::size_t apart) {
+      return apart <= kToEachSide || (apart <= kMost && (returns[k].point_m - returns[i].point_m).norm() < kHalf_m);
+    };
+    while (first > 0 && to_next[first - 1] && near(first - 1, i - first + 1)) --first;
+    while (last + 1 < returns.size() && to_next[last] && near(last + 1, last + 1 - i)) ++last;
     FacedPoint point{returns[i].point_m, {0, 0}};
     if (normal_of(returns, first, last + 1, point.normal)) faced.push_back(point);
   }
