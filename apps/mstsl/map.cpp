@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "calibration_option.hpp"
+#include "map_ambiguity.hpp"
 #include "map_magnetic.hpp"
 #include "map_occupancy.hpp"
 #include "session.hpp"
@@ -118,6 +119,28 @@ void add_map_all(CLI::App& map, Session& session) {
   command->callback([wish, &session] { session.work = [wish, &session] { return map_all(session, *wish); }; });
 }
 
+void add_map_ambiguity(CLI::App& map, Session& session) {
+  auto wish = std::make_shared<AmbiguityWish>();
+  CLI::App* command = map.add_subcommand(
+      "ambiguity", "Say from the maps alone where a robot that is switched on will soon find itself, and where not");
+  command->add_option("--map", wish->map, "Occupancy map: a map_server yaml")->required();
+  command->add_option("--field", wish->field, "Field map, NetCDF")->required();
+  command->add_option("-o,--output", wish->output, "The places and what became of their drives, JSON");
+  command->add_option("--picture", wish->picture, "The map, coloured by it, PNG or SVG");
+  command->add_option("--spacing", wish->options.spacing_m, "Between the places, m")
+      ->check(CLI::Range(0.2, 50.0))
+      ->capture_default_str();
+  command->add_option("--drive", wish->options.drive_m, "Driven from each place, m")
+      ->check(CLI::Range(0.5, 50.0))
+      ->capture_default_str();
+  command->add_option("--drives", wish->options.drives, "From each place, in different directions")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  add_common_options(*command, session);
+  command->callback(
+      [wish, &session] { session.work = [wish, &session] { return map_ambiguity(session, *wish); }; });
+}
+
 }  // namespace
 
 void add_map(CLI::App& app, Session& session) {
@@ -126,6 +149,7 @@ void add_map(CLI::App& app, Session& session) {
   add_map_magnetic(*map, session);
   add_map_occupancy(*map, session);
   add_map_all(*map, session);
+  add_map_ambiguity(*map, session);
 }
 
 }  // namespace mstsl::app
