@@ -35,6 +35,7 @@ struct Wish {
   double moved = PaperProtocolOptions{}.moved_fraction;
   std::optional<std::size_t> hypotheses;
   HardWish hard;
+  MappingWish mapping;
 };
 
 PaperProtocolOptions options_of(const Session& session, const Wish& wish, const std::string& world) {
@@ -69,7 +70,7 @@ Result<void> write_report(const ProtocolResult& result, const fs::path& folder) 
 
 Result<Exit> bench(const Session& session, const Wish& wish) {
   if (wish.protocol == "hard") return bench_hard(session, wish.hard, wish.runs, wish.output);
-  if (wish.protocol == "mapping") return bench_mapping(session, wish.hard.worlds, wish.runs, wish.output);
+  if (wish.protocol == "mapping") return bench_mapping(session, wish.mapping, wish.hard.worlds, wish.runs, wish.output);
   const std::vector<std::string> worlds = wish.world == "both"
                                               ? std::vector<std::string>{"corridor", "carpark"}
                                               : std::vector<std::string>{wish.world};
@@ -141,6 +142,7 @@ void add_bench(CLI::App& app, Session& session) {
                    "Initial hypotheses kept (default: 5 in the corridor, 8 in the car park)")
       ->check(CLI::Range(1, 1000));
   add_hard_options(*command, wish->hard);
+  add_mapping_options(*command, wish->mapping);
   add_common_options(*command, session);
   command->callback([wish, &session] { session.work = [wish, &session] { return bench(session, *wish); }; });
 }

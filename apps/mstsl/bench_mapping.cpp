@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "mstsl/eval/mapping_protocol.hpp"
 #include "mstsl/io/atomic_file.hpp"
 
 #include "interrupt.hpp"
@@ -13,13 +12,28 @@
 
 namespace mstsl::app {
 
-Result<Exit> bench_mapping(const Session& session, const std::vector<std::string>& worlds, int runs,
-                           const std::filesystem::path& folder) {
+void add_mapping_options(CLI::App& command, MappingWish& wish) {
+  const std::string group = "Protocol mapping";
+  command.add_option("--robots", wish.robots, "good: a laser of 30 m; cheap: one of 8 m and worse wheels")
+      ->delimiter(',')
+      ->check(CLI::IsMember(mapping_robot_names()))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--way", wish.length_m, "Metres driven for a map")
+      ->check(CLI::Range(20.0, 1e5))
+      ->capture_default_str()
+      ->group(group);
+}
+
+Result<Exit> bench_mapping(const Session& session, const MappingWish& wish, const std::vector<std::string>& worlds,
+                           int runs, const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Error(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
   MappingProtocolOptions options;
   if (!worlds.empty()) options.worlds = worlds;
+  options.robots = wish.robots;
+  options.length_m = wish.length_m;
   options.runs = runs;
   options.seed = session.seed;
   options.threads = session.threads;

@@ -129,7 +129,11 @@ viz::Canvas draw_ways(const MappedDrives& mapped, const FieldMap* field, const s
   picture.subtitle = fmt::format("{:.0f} m driven, {} loops closed", mapped.track.way_m(),
                                  mapped.track.closures.size() - refuted(mapped.track));
   picture.field = field;
-  for (const SlamTrack::Keyframe& k : mapped.track.keyframes) picture.estimated_path.push_back(k.map_T_base);
+  constexpr double kApart_m = 0.2;
+  for (const DriveTrack& drive : mapped.track.drives)
+    for (std::size_t i = 0; i < drive.map_T_base.size(); ++i)
+      if (picture.estimated_path.empty() || distance(picture.estimated_path.back(), drive.map_T_base[i].pose) > kApart_m)
+        picture.estimated_path.push_back(drive.map_T_base[i].pose);
   picture.start = mapped.track.keyframes.front().map_T_base;
   return viz::draw_run(mapped.grid, picture);
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -221,6 +222,29 @@ TEST(HardProtocol, KeepsRunsAndIsTheSameAtAnyNumberOfThreads) {
     EXPECT_EQ(without_cost(same), without_cost(first[i]));
   }
   fs::remove_all(folder);
+}
+
+/// The small benchmark of every build: who is best where corridors look alike, on the same events.
+TEST(HardProtocol, TheMethodsOrderHolds) {
+  const test::TemporaryFolder folder;
+  HardProtocolOptions options;
+  options.methods = {"joint", "two-step", "global-scan", "mag-pf"};
+  options.worlds = {"symmetric-loop"};
+  options.disturbances = {"none"};
+  options.runs = 6;
+  options.length_m = 8.0;
+  options.beams = 271;
+  options.seed = 50;
+  options.folder = folder.path();
+  std::map<std::string, int> right, wrong;
+  for (const HardRecord& r : must(run_hard_protocol(options))) {
+    right[r.key.method] += r.first && r.first->right ? 1 : 0;
+    wrong[r.key.method] += r.wrong_at_99 > 0 ? 1 : 0;
+  }
+  EXPECT_EQ(right["joint"], options.runs);
+  EXPECT_EQ(wrong["joint"], 0);
+  for (const std::string& method : options.methods) EXPECT_LE(right[method], right["joint"]) << method;
+  EXPECT_LT(right["global-scan"], options.runs) << "two ways round look alike to a lidar";
 }
 
 HardRecord short_record(const std::string& world, const std::string& disturbance, int run, bool right) {
