@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/results.md from the reports kept under docs/results/.
+"""Writes the tables of docs/results.md and docs/mapping.md from the reports kept under docs/results/.
 
     tools/results.py           write them
-    tools/results.py --check   exit 1 if docs/results.md is not what the reports say
+    tools/results.py --check   exit 1 if they are not what the reports say
 
 A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Reports are those of `mstsl bench --protocol
 paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of tools/real_results.sh (real/METHOD_SEED.json), of
 tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, and for
-several methods on the same events baselines/SEED.json).
+several methods on the same events baselines/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
+real.json of tools/real_mapping.sh.
 """
 import json
 import math
@@ -169,20 +170,56 @@ def kidnap_table():
                   "wrong pose in between", "false alarms"], rows)
 
 
+def spread(errors):
+    return (f"{errors['translation_mean_m']:.3f} +- {errors['translation_sd_m']:.3f} m, "
+            f"{errors['rotation_mean_deg']:.2f} +- {errors['rotation_sd_deg']:.2f} deg")
+
+
+def mapping_real_table():
+    rows = []
+    for log, report in reports("mapping")["real"]["logs"].items():
+        truth = report["against_truth"]
+        rows.append([f"{log}, {report['driven_m']:.0f} m", str(report["loops"]["closed"]), f"{truth['ate_rms_m']:.3f} m",
+                     spread(truth["metre"]), spread(truth["loops"]), f"{report['cpu_s']:.1f} s"])
+    return table(["log", "loops", "rms after alignment", "a metre apart", "over loops", "CPU"], rows)
+
+
+def quantile(values, q):
+    values = sorted(values)
+    at = q * (len(values) - 1)
+    low = int(at)
+    return values[low] + (at - low) * (values[min(low + 1, len(values) - 1)] - values[low])
+
+
+def mapping_table():
+    rows, groups = [], {}
+    for name, report in reports("mapping").items():
+        for run in report.get("runs", []):
+            groups.setdefault((run["robot"], run["world"], run["with_field"]), []).append(run)
+    for (robot, world, with_field), runs in groups.items():
+        ate = [run["ate_rms_m"] for run in runs]
+        total = lambda what: sum(run[what] for run in runs)
+        rows.append([robot, world, "scans and field" if with_field else "scans", str(len(runs)), str(total("closures")),
+                     str(total("wrong_closures")), f"{total('refused_by_field')}, {total('closed_only_with_field')}",
+                     f"{quantile(ate, 0.5):.3f}, {quantile(ate, 0.95):.3f}, {max(ate):.3f}"])
+    return table(["robot", "world", "loops by", "drives", "loops", "wrong", "refused, won by the field",
+                  "rms error of the way: median, 95 %, worst (m)"], rows)
+
+
 TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
-          "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table}
+          "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "mapping": mapping_table,
+          "mapping_real": mapping_real_table}
 
 
 def main():
-    page = DOCS / "results.md"
-    text = page.read_text()
-    written = re.sub(r"(<!-- table (\w+) -->\n).*?(<!-- end -->)",
-                     lambda match: match[1] + TABLES[match[2]]() + "\n" + match[3], text, flags=re.DOTALL)
-    if sys.argv[1:] == ["--check"]:
-        if written != text:
-            sys.exit("docs/results.md does not say what docs/results/ holds: run tools/results.py")
-        return
-    page.write_text(written)
+    for page in (DOCS / "results.md", DOCS / "mapping.md"):
+        text = page.read_text()
+        written = re.sub(r"(<!-- table (\w+) -->\n).*?(<!-- end -->)",
+                         lambda match: match[1] + TABLES[match[2]]() + "\n" + match[3], text, flags=re.DOTALL)
+        if sys.argv[1:] != ["--check"]:
+            page.write_text(written)
+        elif written != text:
+            sys.exit(f"docs/{page.name} does not say what docs/results/ holds: run tools/results.py")
 
 
 if __name__ == "__main__":

@@ -70,7 +70,8 @@ Result<void> write_report(const ProtocolResult& result, const fs::path& folder) 
 
 Result<Exit> bench(const Session& session, const Wish& wish) {
   if (wish.protocol == "hard") return bench_hard(session, wish.hard, wish.runs, wish.output);
-  if (wish.protocol == "mapping") return bench_mapping(session, wish.mapping, wish.hard.worlds, wish.runs, wish.output);
+  if (wish.protocol == "mapping")
+    return bench_mapping(session, wish.mapping, wish.hard.worlds, wish.runs, wish.output);
   const std::vector<std::string> worlds = wish.world == "both"
                                               ? std::vector<std::string>{"corridor", "carpark"}
                                               : std::vector<std::string>{wish.world};
@@ -102,9 +103,10 @@ void add_bench(CLI::App& app, Session& session) {
   auto wish = std::make_shared<Wish>();
   CLI::App* command = app.add_subcommand("bench", "Measure the methods by a fixed protocol");
   command
-      ->add_option("--protocol", wish->protocol,
-                   "paper: ten starts driven ten times each, as in the paper; hard: symmetric buildings and "
-                   "whatever disturbs a robot; mapping: maps made from drives, by scans alone and with the field")
+      ->add_option(
+          "--protocol", wish->protocol,
+          "paper: ten starts driven ten times each, as in the paper; hard: symmetric buildings and "
+          "whatever disturbs a robot; mapping: maps made from drives, by scans alone and with the field")
       ->check(CLI::IsMember({"paper", "hard", "mapping"}))
       ->capture_default_str();
   command->add_option("-o,--output", wish->output, "Folder for tables, runs and curves")->required();

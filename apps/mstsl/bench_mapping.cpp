@@ -25,8 +25,9 @@ void add_mapping_options(CLI::App& command, MappingWish& wish) {
       ->group(group);
 }
 
-Result<Exit> bench_mapping(const Session& session, const MappingWish& wish, const std::vector<std::string>& worlds,
-                           int runs, const std::filesystem::path& folder) {
+Result<Exit> bench_mapping(const Session& session, const MappingWish& wish,
+                           const std::vector<std::string>& worlds, int runs,
+                           const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Error(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));

@@ -23,7 +23,8 @@ void add_mapping_options(CLI::App& command, MappingWish& wish);
 
 /// Runs the mapping protocol in the given worlds (none: its own choice) and writes mapping.txt and
 /// mapping.json.
-Result<Exit> bench_mapping(const Session& session, const MappingWish& wish, const std::vector<std::string>& worlds,
-                           int runs, const std::filesystem::path& folder);
+Result<Exit> bench_mapping(const Session& session, const MappingWish& wish,
+                           const std::vector<std::string>& worlds, int runs,
+                           const std::filesystem::path& folder);
 
 }  // namespace mstsl::app

@@ -80,11 +80,13 @@ class DriveMapper {
     play_ = wish.play;
     play_.topics.imu.clear();
     play_.topics.pose.clear();
-    if (wish.without_field || !all_hold(wish.logs, Reading::kField, play_.topics.magnetic_field)) play_.topics.magnetic_field.clear();
+    if (wish.without_field || !all_hold(wish.logs, Reading::kField, play_.topics.magnetic_field))
+      play_.topics.magnetic_field.clear();
     if (!all_hold(wish.logs, Reading::kOdometry, play_.topics.odometry)) {
-      warnings_.push_back(fmt::format("there is no odometry under {}: the way is found by scans alone, which cannot "
-                                      "tell how far the robot goes along a bare corridor",
-                                      play_.topics.odometry));
+      warnings_.push_back(
+          fmt::format("there is no odometry under {}: the way is found by scans alone, which cannot "
+                      "tell how far the robot goes along a bare corridor",
+                      play_.topics.odometry));
       play_.topics.odometry.clear();
     }
   }
@@ -99,7 +101,8 @@ class DriveMapper {
     MappedDrives mapped{.grid = {}, .track = *track_, .play = play_, .warnings = {}, .truth = {}};
     Result<OccupancyGrid> grid = draw(drives_.size(), {.map = wish_.drawing}, &mapped.truth);
     if (!grid) return grid.error();
-    if (count(*grid, CellState::kFree) == 0) return Error(name_of(wish_.logs) + ": no scan showed any free ground");
+    if (count(*grid, CellState::kFree) == 0)
+      return Error(name_of(wish_.logs) + ": no scan showed any free ground");
     mapped.grid = std::move(grid).value();
     mapped.warnings = std::move(warnings_);
     return mapped;
@@ -150,7 +153,9 @@ class DriveMapper {
       if (truth != nullptr) truth->emplace_back();
       const auto played = play_drive(
           session_, drives_[k], play, step("drawing", k),
-          [&](const io::RecordingHeader& header) { drawer.begin_drive(header.rig, track_->drives[k].map_T_base); },
+          [&](const io::RecordingHeader& header) {
+            drawer.begin_drive(header.rig, track_->drives[k].map_T_base);
+          },
           [&](const SensorEvent& event) {
             hand_over(drawer, event);
             if (const auto* pose = std::get_if<PoseReading>(&event); pose != nullptr && truth != nullptr)
@@ -180,7 +185,8 @@ class DriveMapper {
     options.threads = session_.threads;
     Result<FieldMap> field = build_field_map(survey->fingerprints, &*grid, options);
     if (!field) return field.error().within(name_of(logs));
-    auto maps = make_localization_maps(std::move(grid).value(), std::move(field).value(), {.threads = session_.threads});
+    auto maps = make_localization_maps(std::move(grid).value(), std::move(field).value(),
+                                       {.threads = session_.threads});
     if (!maps) return maps.error().within(name_of(logs));
     auto joint = make_method("joint", *maps, {.threads = session_.threads});
     if (!joint) return joint.error();
@@ -197,9 +203,10 @@ class DriveMapper {
         });
     if (!played) return played.error();
     if (!anchor)
-      return Error(fmt::format("{}: the drive could not be found in the map of those before it; does it go where they "
-                               "went? Give --continuous if it begins where the last one ended",
-                               name_of(drives_[k])));
+      return Error(
+          fmt::format("{}: the drive could not be found in the map of those before it; does it go where they "
+                      "went? Give --continuous if it begins where the last one ended",
+                      name_of(drives_[k])));
     return *anchor;
   }
 

@@ -36,8 +36,8 @@ struct MappedDrives {
   std::vector<std::vector<PoseReading>> truth;  ///< of each drive, under the truth's topic
 };
 
-/// Finds where the robot was on each drive, then draws what its scans saw from there. Errors: a log that cannot
-/// be read or mapped, or not be found in the map of those before it; an interrupt.
+/// Finds where the robot was on each drive, then draws what its scans saw from there. Errors: a log that
+/// cannot be read or mapped, or not be found in the map of those before it; an interrupt.
 Result<MappedDrives> map_drives(const Session& session, const DrivesWish& wish);
 
 }  // namespace mstsl::app

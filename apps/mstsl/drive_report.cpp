@@ -16,8 +16,8 @@ namespace mstsl::app {
 namespace {
 
 std::size_t refuted(const SlamTrack& track) {
-  return static_cast<std::size_t>(
-      std::count_if(track.closures.begin(), track.closures.end(), [](const Closure& c) { return c.refuted; }));
+  return static_cast<std::size_t>(std::count_if(track.closures.begin(), track.closures.end(),
+                                                [](const Closure& c) { return c.refuted; }));
 }
 
 /// Against the poses that the log itself has, if it was asked for them.
@@ -40,7 +40,8 @@ std::optional<AgainstTruth> against_truth(const MappedDrives& mapped) {
       truth.push_back(pose.map_T_base);
     }
   if (truth.empty()) return std::nullopt;
-  return AgainstTruth{trajectory_error(estimated, truth), local_errors(estimated, truth), loop_errors(estimated, truth)};
+  return AgainstTruth{trajectory_error(estimated, truth), local_errors(estimated, truth),
+                      loop_errors(estimated, truth)};
 }
 
 std::string relation_text(const RelationErrors& errors) {
@@ -62,18 +63,23 @@ nlohmann::ordered_json relation_json(const RelationErrors& errors) {
 std::string drive_report_text(const MappedDrives& mapped) {
   const SlamTrack& track = mapped.track;
   const GridGeometry& g = mapped.grid.geometry();
-  std::string text = fmt::format("{:.0f} m driven, {} scans, {} kept; a scan fits those before it to {:.0f} %\n", track.way_m(),
-                                 track.scans(), track.keyframes.size(), 100 * track.mean_score);
-  text += fmt::format("loops: {} closed, {} of them refuted later; {} looked at, {} ambiguous, {} refused by the field, "
-                      "{} closed only with it\n",
-                      track.closures.size(), refuted(track), track.loops.looked_at, track.loops.ambiguous,
-                      track.loops.refused_by_field, track.loops.earlier_by_field);
-  text += fmt::format("wheels: ways {:+.1f} %, drift {:+.2f} deg/m, turns {:+.1f} %\n", 100 * track.wheels.scale,
-                      degrees(track.wheels.drift_rad_per_m), 100 * track.wheels.turn_scale);
-  text += fmt::format("map: {:.1f} x {:.1f} m, {:.0f} m2 free\n", g.columns * g.resolution_m, g.rows * g.resolution_m,
-                      static_cast<double>(count(mapped.grid, CellState::kFree)) * g.resolution_m * g.resolution_m);
+  std::string text =
+      fmt::format("{:.0f} m driven, {} scans, {} kept; a scan fits those before it to {:.0f} %\n",
+                  track.way_m(), track.scans(), track.keyframes.size(), 100 * track.mean_score);
+  text += fmt::format(
+      "loops: {} closed, {} of them refuted later; {} looked at, {} ambiguous, {} refused by the field, "
+      "{} closed only with it\n",
+      track.closures.size(), refuted(track), track.loops.looked_at, track.loops.ambiguous,
+      track.loops.refused_by_field, track.loops.earlier_by_field);
+  text +=
+      fmt::format("wheels: ways {:+.1f} %, drift {:+.2f} deg/m, turns {:+.1f} %\n", 100 * track.wheels.scale,
+                  degrees(track.wheels.drift_rad_per_m), 100 * track.wheels.turn_scale);
+  text += fmt::format(
+      "map: {:.1f} x {:.1f} m, {:.0f} m2 free\n", g.columns * g.resolution_m, g.rows * g.resolution_m,
+      static_cast<double>(count(mapped.grid, CellState::kFree)) * g.resolution_m * g.resolution_m);
   if (const auto truth = against_truth(mapped)) {
-    text += fmt::format("against the true poses: {:.3f} m rms, at most {:.3f} m\n", truth->absolute.rms_m, truth->absolute.max_m);
+    text += fmt::format("against the true poses: {:.3f} m rms, at most {:.3f} m\n", truth->absolute.rms_m,
+                        truth->absolute.max_m);
     text += "  a metre apart: " + relation_text(truth->local) + "\n";
     text += "  over loops:    " + relation_text(truth->loops) + "\n";
   }
@@ -96,30 +102,30 @@ std::string drive_report_json(const MappedDrives& mapped) {
   for (const DriveTrack& d : track.drives)
     drives.push_back({{"driven_m", d.way_m}, {"scans", d.scans}, {"odometry_breaks", d.breaks}});
   nlohmann::ordered_json report = {{"driven_m", track.way_m()},
-                                         {"scans", track.scans()},
-                                         {"keyframes", track.keyframes.size()},
-                                         {"mean_score", track.mean_score},
-                                         {"drives", drives},
-                                         {"wheels",
-                                          {{"scale", track.wheels.scale},
-                                           {"drift_rad_per_m", track.wheels.drift_rad_per_m},
-                                           {"turn_scale", track.wheels.turn_scale}}},
-                                         {"loops",
-                                          {{"looked_at", track.loops.looked_at},
-                                           {"closed", track.closures.size()},
-                                           {"refuted", refuted(track)},
-                                           {"ambiguous", track.loops.ambiguous},
-                                           {"refused_by_field", track.loops.refused_by_field},
-                                           {"closed_only_with_field", track.loops.earlier_by_field}}},
-                                         {"closures", closures}};
+                                   {"scans", track.scans()},
+                                   {"keyframes", track.keyframes.size()},
+                                   {"mean_score", track.mean_score},
+                                   {"drives", drives},
+                                   {"wheels",
+                                    {{"scale", track.wheels.scale},
+                                     {"drift_rad_per_m", track.wheels.drift_rad_per_m},
+                                     {"turn_scale", track.wheels.turn_scale}}},
+                                   {"loops",
+                                    {{"looked_at", track.loops.looked_at},
+                                     {"closed", track.closures.size()},
+                                     {"refuted", refuted(track)},
+                                     {"ambiguous", track.loops.ambiguous},
+                                     {"refused_by_field", track.loops.refused_by_field},
+                                     {"closed_only_with_field", track.loops.earlier_by_field}}},
+                                   {"closures", closures}};
   if (const auto truth = against_truth(mapped))
-    report["against_truth"] = {{"true_T_map",
-                                {truth->absolute.true_T_map.x, truth->absolute.true_T_map.y,
-                                 truth->absolute.true_T_map.yaw}},
-                               {"ate_rms_m", truth->absolute.rms_m},
-                               {"ate_max_m", truth->absolute.max_m},
-                               {"metre", relation_json(truth->local)},
-                               {"loops", relation_json(truth->loops)}};
+    report["against_truth"] = {
+        {"true_T_map",
+         {truth->absolute.true_T_map.x, truth->absolute.true_T_map.y, truth->absolute.true_T_map.yaw}},
+        {"ate_rms_m", truth->absolute.rms_m},
+        {"ate_max_m", truth->absolute.max_m},
+        {"metre", relation_json(truth->local)},
+        {"loops", relation_json(truth->loops)}};
   return report.dump();
 }
 
@@ -132,7 +138,8 @@ viz::Canvas draw_ways(const MappedDrives& mapped, const FieldMap* field, const s
   constexpr double kApart_m = 0.2;
   for (const DriveTrack& drive : mapped.track.drives)
     for (std::size_t i = 0; i < drive.map_T_base.size(); ++i)
-      if (picture.estimated_path.empty() || distance(picture.estimated_path.back(), drive.map_T_base[i].pose) > kApart_m)
+      if (picture.estimated_path.empty() ||
+          distance(picture.estimated_path.back(), drive.map_T_base[i].pose) > kApart_m)
         picture.estimated_path.push_back(drive.map_T_base[i].pose);
   picture.start = mapped.track.keyframes.front().map_T_base;
   return viz::draw_run(mapped.grid, picture);

@@ -79,13 +79,16 @@ void add_map_magnetic(CLI::App& map, Session& session) {
 }
 
 void add_drive_options(CLI::App& command, DrivesWish& wish) {
-  command.add_flag("--continuous", wish.continuous,
-                   "Each log begins where the one before ended; otherwise each is a drive of its own, which is found in "
-                   "the map of those before it");
-  command.add_flag("--no-field", wish.without_field, "Leave the magnetic field out: loops are closed by scans alone");
-  command.add_option("--truth-topic", wish.truth_topic,
-                     "Topic with true poses: how far the drives' are from them is said, and nothing else done with "
-                     "them");
+  command.add_flag(
+      "--continuous", wish.continuous,
+      "Each log begins where the one before ended; otherwise each is a drive of its own, which is found in "
+      "the map of those before it");
+  command.add_flag("--no-field", wish.without_field,
+                   "Leave the magnetic field out: loops are closed by scans alone");
+  command.add_option(
+      "--truth-topic", wish.truth_topic,
+      "Topic with true poses: how far the drives' are from them is said, and nothing else done with "
+      "them");
   command.add_option("--resolution", wish.drawing.resolution_m, "Side of a cell of the occupancy map, m")
       ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();
@@ -110,19 +113,23 @@ void add_map_occupancy(CLI::App& map, Session& session) {
 
 void add_map_all(CLI::App& map, Session& session) {
   auto wish = std::make_shared<WholeMapWish>();
-  CLI::App* command =
-      map.add_subcommand("all", "Make both maps, of walls and of the magnetic field, from raw logs of drives");
-  command->add_option("-o,--output", wish->folder, "Folder for map.yaml, field.nc, trajectory.tum, report.json, pictures")
+  CLI::App* command = map.add_subcommand(
+      "all", "Make both maps, of walls and of the magnetic field, from raw logs of drives");
+  command
+      ->add_option("-o,--output", wish->folder,
+                   "Folder for map.yaml, field.nc, trajectory.tum, report.json, pictures")
       ->required();
   add_drive_options(*command, wish->drives);
   add_common_options(*command, session);
-  command->callback([wish, &session] { session.work = [wish, &session] { return map_all(session, *wish); }; });
+  command->callback(
+      [wish, &session] { session.work = [wish, &session] { return map_all(session, *wish); }; });
 }
 
 void add_map_ambiguity(CLI::App& map, Session& session) {
   auto wish = std::make_shared<AmbiguityWish>();
   CLI::App* command = map.add_subcommand(
-      "ambiguity", "Say from the maps alone where a robot that is switched on will soon find itself, and where not");
+      "ambiguity",
+      "Say from the maps alone where a robot that is switched on will soon find itself, and where not");
   command->add_option("--map", wish->map, "Occupancy map: a map_server yaml")->required();
   command->add_option("--field", wish->field, "Field map, NetCDF")->required();
   command->add_option("-o,--output", wish->output, "The places and what became of their drives, JSON");

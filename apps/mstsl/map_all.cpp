@@ -38,7 +38,8 @@ Result<MappedField> map_field(const Session& session, const WholeMapWish& wish, 
   if (!survey) return survey.error();
   FieldMapOptions options;
   options.threads = options.analysis.threads = session.threads;
-  const std::string where = wish.drives.logs.front().string() + (wish.drives.logs.size() > 1 ? " and others" : "");
+  const std::string where =
+      wish.drives.logs.front().string() + (wish.drives.logs.size() > 1 ? " and others" : "");
   auto analysis = analyse_survey(survey->fingerprints, options.model, options.analysis);
   if (!analysis) return analysis.error().within(where);
   Progress progress("field map", session.quiet);
@@ -52,7 +53,8 @@ Result<MappedField> map_field(const Session& session, const WholeMapWish& wish, 
   return MappedField{std::move(survey).value(), std::move(analysis).value(), std::move(field).value()};
 }
 
-Result<void> write_all(const WholeMapWish& wish, const MappedDrives& mapped, const std::optional<MappedField>& field) {
+Result<void> write_all(const WholeMapWish& wish, const MappedDrives& mapped,
+                       const std::optional<MappedField>& field) {
   const fs::path& folder = wish.folder;
   std::error_code error;
   fs::create_directories(folder, error);
@@ -65,7 +67,8 @@ Result<void> write_all(const WholeMapWish& wish, const MappedDrives& mapped, con
     if (auto written = viz::draw_field(mapped.grid, field->field, title).save(folder / "field.png"); !written)
       return written;
   }
-  if (auto written = draw_ways(mapped, field ? &field->field : nullptr, title).save(folder / "map.png"); !written)
+  if (auto written = draw_ways(mapped, field ? &field->field : nullptr, title).save(folder / "map.png");
+      !written)
     return written;
   return io::write_file(folder / "report.json", drive_report_json(mapped) + "\n");
 }
@@ -77,8 +80,9 @@ Result<Exit> map_all(const Session& session, const WholeMapWish& wish) {
   if (!mapped) return mapped.error();
   std::optional<MappedField> field;
   if (mapped->play.topics.magnetic_field.empty()) {
-    mapped->warnings.push_back(fmt::format(
-        "no field map is made: not every log has magnetic field messages under {}", wish.drives.play.topics.magnetic_field));
+    mapped->warnings.push_back(
+        fmt::format("no field map is made: not every log has magnetic field messages under {}",
+                    wish.drives.play.topics.magnetic_field));
   } else {
     Result<MappedField> made = map_field(session, wish, *mapped);
     if (!made) return made.error();

@@ -42,10 +42,12 @@ Tally tally(const std::vector<AmbiguousPlace>& places) {
 std::string text_of(const Tally& t, const AmbiguityOptions& options) {
   const Interval right = wilson_interval(t.right);
   return fmt::format(
-      "{} drives of {:g} m from {} places: {:.1f} % answered rightly ({:.1f} to {:.1f} %), {} wrongly, the rest not yet\n"
-      "{} places from which none was answered; {} with no survey nearby; {} from which no straight way leads\n",
-      t.right.of, options.drive_m, t.places - t.without_way, 100 * t.right.share(), 100 * right.low, 100 * right.high,
-      t.wrong.hits, t.never, t.unsurveyed, t.without_way);
+      "{} drives of {:g} m from {} places: {:.1f} % answered rightly ({:.1f} to {:.1f} %), {} wrongly, the "
+      "rest not yet\n"
+      "{} places from which none was answered; {} with no survey nearby; {} from which no straight way "
+      "leads\n",
+      t.right.of, options.drive_m, t.places - t.without_way, 100 * t.right.share(), 100 * right.low,
+      100 * right.high, t.wrong.hits, t.never, t.unsurveyed, t.without_way);
 }
 
 std::string json_of(const std::vector<AmbiguousPlace>& places, const AmbiguityOptions& options) {
@@ -58,9 +60,12 @@ std::string json_of(const std::vector<AmbiguousPlace>& places, const AmbiguityOp
                     {"right", p.right},
                     {"wrong", p.wrong},
                     {"field_known", p.field_known}});
-  const nlohmann::ordered_json all = {{"drive_m", options.drive_m}, {"spacing_m", options.spacing_m},
-                                      {"seed", options.seed},       {"drives", t.right.of},
-                                      {"right", t.right.hits},      {"wrong", t.wrong.hits},
+  const nlohmann::ordered_json all = {{"drive_m", options.drive_m},
+                                      {"spacing_m", options.spacing_m},
+                                      {"seed", options.seed},
+                                      {"drives", t.right.of},
+                                      {"right", t.right.hits},
+                                      {"wrong", t.wrong.hits},
                                       {"places", list}};
   return all.dump() + "\n";
 }
@@ -83,7 +88,8 @@ Result<Exit> map_ambiguity(const Session& session, const AmbiguityWish& wish) {
   if (!grid) return grid.error();
   Result<FieldMap> field = io::read_field_map(wish.field);
   if (!field) return field.error();
-  auto maps = make_localization_maps(std::move(grid).value(), std::move(field).value(), {.threads = session.threads});
+  auto maps =
+      make_localization_maps(std::move(grid).value(), std::move(field).value(), {.threads = session.threads});
   if (!maps) return maps.error().within(wish.field.string());
   AmbiguityOptions options = wish.options;
   options.seed = session.seed;
@@ -93,14 +99,16 @@ Result<Exit> map_ambiguity(const Session& session, const AmbiguityWish& wish) {
   const auto places = find_ambiguity(*maps, options);
   if (!places) return places.error();
   if (wish.output)
-    if (const auto written = io::write_file(*wish.output, json_of(*places, options)); !written) return written.error();
+    if (const auto written = io::write_file(*wish.output, json_of(*places, options)); !written)
+      return written.error();
   const std::string text = text_of(tally(*places), options);
   if (wish.picture) {
     const std::string first_line = text.substr(0, text.find('\n'));
-    const auto drawn = viz::draw_places((*maps)->occupancy, marks_of(*places), options.spacing_m,
-                                        fmt::format("Who is switched on here and drives {:g} m", options.drive_m), first_line,
-                                        "drives answered rightly (%)")
-                           .save(*wish.picture);
+    const auto drawn =
+        viz::draw_places((*maps)->occupancy, marks_of(*places), options.spacing_m,
+                         fmt::format("Who is switched on here and drives {:g} m", options.drive_m),
+                         first_line, "drives answered rightly (%)")
+            .save(*wish.picture);
     if (!drawn) return drawn.error();
   }
   if (session.json)

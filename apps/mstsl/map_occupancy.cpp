@@ -25,7 +25,8 @@ Result<Exit> map_occupancy(const Session& session, const OccupancyMapWish& wish)
     if (const auto written = io::write_file(*wish.report, drive_report_json(*mapped) + "\n"); !written)
       return written.error();
   if (wish.picture)
-    if (const auto written = draw_ways(*mapped, nullptr, wish.output.filename().string()).save(*wish.picture); !written)
+    if (const auto written = draw_ways(*mapped, nullptr, wish.output.filename().string()).save(*wish.picture);
+        !written)
       return written.error();
   if (session.json)
     fmt::print("{}\n", drive_report_json(*mapped));

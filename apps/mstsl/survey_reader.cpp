@@ -51,8 +51,10 @@ class Collecting {
 
 }  // namespace
 
-Result<SurveyLogs> collect_fingerprints(const Session& session, const std::vector<std::filesystem::path>& logs,
-                                        const io::PlayOptions& play, const std::vector<Trajectory>& map_T_base) {
+Result<SurveyLogs> collect_fingerprints(const Session& session,
+                                        const std::vector<std::filesystem::path>& logs,
+                                        const io::PlayOptions& play,
+                                        const std::vector<Trajectory>& map_T_base) {
   SurveyLogs survey;
   std::optional<FingerprintCollector> collector;
   Progress progress("reading the field", session.quiet);

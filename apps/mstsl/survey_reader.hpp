@@ -28,8 +28,10 @@ struct SurveyLogs {
 /// Plays the logs, one session each, and collects their fingerprints at the places that the robot was at on
 /// `map_T_base`, one trajectory a log; without any, at the poses in the logs. Errors: a log that cannot be
 /// read, an interrupt.
-Result<SurveyLogs> collect_fingerprints(const Session& session, const std::vector<std::filesystem::path>& logs,
-                                        const io::PlayOptions& play, const std::vector<Trajectory>& map_T_base = {});
+Result<SurveyLogs> collect_fingerprints(const Session& session,
+                                        const std::vector<std::filesystem::path>& logs,
+                                        const io::PlayOptions& play,
+                                        const std::vector<Trajectory>& map_T_base = {});
 
 /// Plays the logs, one session each, and collects their fingerprints; with a start, where they lie is found
 /// by tracking the robot from there. Errors: a log that cannot be read or tracked, an interrupt.

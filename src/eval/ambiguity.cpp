@@ -25,7 +25,8 @@ constexpr int kDirections = 16;
 /// A made-up drive: straight on from a pose.
 class MadeUpDrive {
  public:
-  MadeUpDrive(const LocalizationMaps& maps, const AmbiguityOptions& options, const Pose2& start, Random random)
+  MadeUpDrive(const LocalizationMaps& maps, const AmbiguityOptions& options, const Pose2& start,
+              Random random)
       : maps_(maps), options_(options), start_(start), random_(random) {
     for (int k = 0; k < 3; ++k) bias_uT_[k] = random_.normal(0.0, options.bias_sd_uT);
     scale_ = 1.0 + random_.normal(0.0, options.scale_sd);
@@ -112,7 +113,8 @@ void drive(MadeUpDrive made_up, AnyLocalizer localizer, AmbiguousPlace& place) {
 }
 
 /// Whether a robot can go straight on from a pose.
-bool is_clear(const DistanceField& walls, const OccupancyGrid& map, const Pose2& from, const AmbiguityOptions& options) {
+bool is_clear(const DistanceField& walls, const OccupancyGrid& map, const Pose2& from,
+              const AmbiguityOptions& options) {
   for (double s = 0.0; s <= options.drive_m; s += 0.1) {
     const Eigen::Vector2d at = from * Eigen::Vector2d(s, 0);
     if (state_at(map, at) != CellState::kFree || walls.at(at) < options.clearance_m) return false;

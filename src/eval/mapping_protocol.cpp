@@ -62,15 +62,19 @@ Result<sim::RobotOptions> robot_named(const std::string& name) {
     return robot;
   }
   if (name != "cheap") return Error(fmt::format("there is no robot '{}'; there are good and cheap", name));
-  robot.lidar = {.rate_hz = 5.5, .field_of_view_rad = radians(359.0), .beams = 360, .sweep_s = 0.18, .range_max_m = 8.0,
+  robot.lidar = {.rate_hz = 5.5,
+                 .field_of_view_rad = radians(359.0),
+                 .beams = 360,
+                 .sweep_s = 0.18,
+                 .range_max_m = 8.0,
                  .near_noise_m = 0.02};
   robot.odometry.scale_sigma = 0.06;
   robot.odometry.drift_sigma_rad_per_m = radians(2.0);
   return robot;
 }
 
-Result<Recording> record(const sim::World& world, const std::string& robot_name, const MappingProtocolOptions& options,
-                         const Random& random) {
+Result<Recording> record(const sim::World& world, const std::string& robot_name,
+                         const MappingProtocolOptions& options, const Random& random) {
   const auto route = tour(world, options.length_m, random.fork(kTourStream));
   if (!route) return route.error();
   const Result<sim::RobotOptions> robot = robot_named(robot_name);
@@ -100,7 +104,8 @@ double map_error(const Recording& recording, const SlamTrack& track, const Pose2
   OccupancyMapper mapper;
   for (const SensorEvent& event : recording.events) {
     const auto* scan = std::get_if<LaserScan>(&event);
-    const auto pose = scan == nullptr ? std::nullopt : track.drives.front().map_T_base.at(scan->stamp, kLongestGap_s);
+    const auto pose =
+        scan == nullptr ? std::nullopt : track.drives.front().map_T_base.at(scan->stamp, kLongestGap_s);
     if (pose) (void)mapper.insert(*scan, recording.rig.base_T_laser, *pose).ok();
   }
   const OccupancyGrid drawn = mapper.grid();
@@ -188,7 +193,8 @@ Result<std::vector<MappingRecord>> run_mapping_protocol(const MappingProtocolOpt
     }();
     const std::lock_guard guard(lock);
     ++done;
-    if (options.progress && !options.progress(static_cast<double>(done) / static_cast<double>(runs))) ended = true;
+    if (options.progress && !options.progress(static_cast<double>(done) / static_cast<double>(runs)))
+      ended = true;
   });
   if (ended) return Error("interrupted; nothing was written");
   std::vector<MappingRecord> records;

@@ -45,13 +45,15 @@ std::vector<std::pair<Key, Row>> rows_of(std::span<const MappingRecord> records)
 }  // namespace
 
 std::string mapping_text(std::span<const MappingRecord> records) {
-  std::string text = fmt::format("{:<6} {:<16} {:<7} {:>4} {:>8} {:>6} {:>11} {:>8} {:>22} {:>9} {:>8}\n", "robot", "world", "by", "runs",
-                                 "closures", "wrong", "wrong maps", "refuted", "ATE m median/95%/max", "map off", "x real");
+  std::string text = fmt::format("{:<6} {:<16} {:<7} {:>4} {:>8} {:>6} {:>11} {:>8} {:>22} {:>9} {:>8}\n",
+                                 "robot", "world", "by", "runs", "closures", "wrong", "wrong maps", "refuted",
+                                 "ATE m median/95%/max", "map off", "x real");
   for (const auto& [key, row] : rows_of(records))
-    text += fmt::format("{:<6} {:<16} {:<7} {:>4} {:>8} {:>6} {:>11} {:>8} {:>22} {:>8.1f}% {:>8.0f}\n", std::get<0>(key),
-                        std::get<1>(key), std::get<2>(key) ? "field" : "scans", row.runs, row.closures, row.wrong, row.runs_with_wrong, row.refuted,
-                        fmt::format("{:.3f}/{:.3f}/{:.3f}", quantile(row.ate_m, 0.5), quantile(row.ate_m, 0.95),
-                                    quantile(row.ate_m, 1.0)),
+    text += fmt::format("{:<6} {:<16} {:<7} {:>4} {:>8} {:>6} {:>11} {:>8} {:>22} {:>8.1f}% {:>8.0f}\n",
+                        std::get<0>(key), std::get<1>(key), std::get<2>(key) ? "field" : "scans", row.runs,
+                        row.closures, row.wrong, row.runs_with_wrong, row.refuted,
+                        fmt::format("{:.3f}/{:.3f}/{:.3f}", quantile(row.ate_m, 0.5),
+                                    quantile(row.ate_m, 0.95), quantile(row.ate_m, 1.0)),
                         100 * quantile(row.map_error, 0.5), row.driven_s / row.cpu_s);
   return text;
 }

@@ -42,7 +42,8 @@ TrajectoryError trajectory_error(std::span<const TimedPose> estimated, std::span
     mean_estimated += estimated[i].pose.position() / n, mean_true += truth[i].position() / n;
   double cosine = 0.0, sine = 0.0;
   for (std::size_t i = 0; i < estimated.size(); ++i) {
-    const Eigen::Vector2d e = estimated[i].pose.position() - mean_estimated, t = truth[i].position() - mean_true;
+    const Eigen::Vector2d e = estimated[i].pose.position() - mean_estimated,
+                          t = truth[i].position() - mean_true;
     cosine += e.dot(t), sine += e.x() * t.y() - e.y() * t.x();
   }
   TrajectoryError error;

@@ -27,9 +27,8 @@ Trajectory bent_track(std::span<const TimedPose> track_T_base, std::span<const T
     }
     const Pose2 to_b = a.map_T_base * between(a.track_T_base, b.track_T_base);
     const double share = (at.stamp - a.stamp) / (b.stamp - a.stamp);
-    bent.add(at.stamp,
-             Pose2::from(from_a.position() + share * (b.map_T_base.position() - to_b.position()),
-                         from_a.yaw + share * angle_between(to_b.yaw, b.map_T_base.yaw)));
+    bent.add(at.stamp, Pose2::from(from_a.position() + share * (b.map_T_base.position() - to_b.position()),
+                                   from_a.yaw + share * angle_between(to_b.yaw, b.map_T_base.yaw)));
   }
   if (!knots.empty()) add_knots_until(knots.back().stamp);
   return bent;

@@ -23,10 +23,10 @@ using ByBiases = Eigen::Matrix<double, 3, kBiases>;
 
 /// A reading and the nearest older one.
 struct Pair {
-  Vector3d difference_uT;       ///< older less newer, in the older one's axes
-  ByBiases by_bias;             ///< how it changes with them
-  double same_uT2 = 0.0;        ///< variance of a component if the two lie as near as assumed
-  double weight = 0.0;          ///< of one independent piece of evidence
+  Vector3d difference_uT;  ///< older less newer, in the older one's axes
+  ByBiases by_bias;        ///< how it changes with them
+  double same_uT2 = 0.0;   ///< variance of a component if the two lie as near as assumed
+  double weight = 0.0;     ///< of one independent piece of evidence
 };
 
 std::vector<Pair> pairs_of(std::span<const FieldAt> older, std::span<const FieldAt> newer, const Pose2& a_T_b,
@@ -76,8 +76,8 @@ std::pair<double, double> mixed(double log_p, double log_q, double share) {
 /// Log probability of the differences, each `variance(pair)` wide but for outliers, with the best bias (and
 /// what it costs to be free to choose it, to second order).
 template <typename Variance>
-double log_probability(const std::vector<Pair>& pairs, double outlier_uT2, const FieldEvidenceOptions& options,
-                       Variance variance) {
+double log_probability(const std::vector<Pair>& pairs, double outlier_uT2,
+                       const FieldEvidenceOptions& options, Variance variance) {
   using Curvature = Eigen::Matrix<double, kBiases, kBiases>;
   const double prior = 1.0 / (options.bias_sd_uT * options.bias_sd_uT);
   std::vector<double> inlier(pairs.size(), 1.0);
@@ -96,8 +96,8 @@ double log_probability(const std::vector<Pair>& pairs, double outlier_uT2, const
     log_p = 0.0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const double left = (pairs[i].difference_uT - pairs[i].by_bias * bias).squaredNorm();
-      const auto [log_both, share] = mixed(log_normal(left, variance(pairs[i])), log_normal(left, outlier_uT2),
-                                           options.outlier_share);
+      const auto [log_both, share] =
+          mixed(log_normal(left, variance(pairs[i])), log_normal(left, outlier_uT2), options.outlier_share);
       inlier[i] = share;
       log_p += pairs[i].weight * log_both;
     }
@@ -146,8 +146,9 @@ double FieldVariogram::unrelated_uT2() const {
   return pairs > 0 ? sum / pairs : 0.0;
 }
 
-FieldEvidence field_evidence(std::span<const FieldAt> older_a, std::span<const FieldAt> newer_b, const Pose2& a_T_b,
-                             const FieldVariogram& variogram, const FieldEvidenceOptions& options) {
+FieldEvidence field_evidence(std::span<const FieldAt> older_a, std::span<const FieldAt> newer_b,
+                             const Pose2& a_T_b, const FieldVariogram& variogram,
+                             const FieldEvidenceOptions& options) {
   FieldEvidence evidence;
   if (!variogram.is_known()) return evidence;
   const std::vector<Pair> pairs = pairs_of(older_a, newer_b, a_T_b, variogram, options);

@@ -36,7 +36,8 @@ std::optional<OdometryReading> LaserOdometry::observe(const LaserScan& scan) {
     interval_s_ = seconds;
   }
   constexpr double kDrawn_m = 0.25, kDrawn_rad = 0.15;
-  if (!last_ || distance(drawn_, odom_T_base_) > kDrawn_m || std::abs(angle_between(drawn_.yaw, odom_T_base_.yaw)) > kDrawn_rad) {
+  if (!last_ || distance(drawn_, odom_T_base_) > kDrawn_m ||
+      std::abs(angle_between(drawn_.yaw, odom_T_base_.yaw)) > kDrawn_rad) {
     walls_.add(faced, odom_T_base_);
     drawn_ = odom_T_base_;
   }

@@ -40,7 +40,8 @@ void LoopCloser::add(const Keyframe& keyframe) {
   constexpr std::size_t kMost = 60;  // who turns on the spot all day
   while (stretch_.size() > kMost) stretch_.pop_front();
   ++keyframes_;
-  const bool full = keyframe.travelled_m - open_.front().travelled_m >= options_.submap_m || open_.size() >= kMost;
+  const bool full =
+      keyframe.travelled_m - open_.front().travelled_m >= options_.submap_m || open_.size() >= kMost;
   if (full) end_submap();
 }
 
@@ -60,13 +61,15 @@ void LoopCloser::end_submap() {
   submaps_.push_back(std::move(submap));
 }
 
-std::vector<std::size_t> LoopCloser::near(const PoseGraph& graph, const std::vector<Matrix3d>& covariances) const {
+std::vector<std::size_t> LoopCloser::near(const PoseGraph& graph,
+                                          const std::vector<Matrix3d>& covariances) const {
   constexpr std::size_t kMost = 2;
   const Pose2& now = graph.pose(graph.size() - 1);
   std::vector<std::pair<double, std::size_t>> found;
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
     const Submap& submap = submaps_[s];
-    const bool just_now = submap.drive == drive_ && stretch_.back().travelled_m - submap.end_m < options_.least_way_m;
+    const bool just_now =
+        submap.drive == drive_ && stretch_.back().travelled_m - submap.end_m < options_.least_way_m;
     if (submap.keyframes.empty() || just_now) continue;
     const Eigen::Vector2d here_m = inverse(graph.pose(submap.origin)) * now.position();
     double distance_m = std::numeric_limits<double>::infinity();
@@ -83,7 +86,8 @@ std::vector<std::size_t> LoopCloser::near(const PoseGraph& graph, const std::vec
 
 const SubmapWalls& LoopCloser::walls_of(std::size_t submap) {
   constexpr std::size_t kKept = 12;
-  const auto at = std::find_if(ready_.begin(), ready_.end(), [&](const auto& r) { return r.first == submap; });
+  const auto at =
+      std::find_if(ready_.begin(), ready_.end(), [&](const auto& r) { return r.first == submap; });
   if (at != ready_.end())
     ready_.splice(ready_.begin(), ready_, at);
   else
@@ -97,7 +101,8 @@ std::vector<Closure> LoopCloser::look(const PoseGraph& graph) {
   if (stretch_.empty() || submaps_.empty()) return closures;
   const Keyframe& last = stretch_.back();
   const double way_m = last.travelled_m - stretch_.front().travelled_m;
-  if (last.travelled_m - looked_at_m_ < options_.look_every_m || way_m < 0.75 * options_.stretch_m) return closures;
+  if (last.travelled_m - looked_at_m_ < options_.look_every_m || way_m < 0.75 * options_.stretch_m)
+    return closures;
   looked_at_m_ = last.travelled_m;
   const std::vector<Matrix3d> covariances = graph.covariances_from_last();
   const std::vector<Keyframe> keyframes(stretch_.begin(), stretch_.end());
@@ -124,8 +129,8 @@ std::vector<LoopCloser::Match> LoopCloser::matches(const SubmapWalls& walls, con
                                                    const PosePrior& prior) const {
   std::vector<Match> matches;
   if (!walls.cells) return matches;
-  SearchWindow window = SearchWindow::around(prior.mean, prior.covariance, options_.sigmas,
-                                             walls.cells->occupancy.geometry());
+  SearchWindow window =
+      SearchWindow::around(prior.mean, prior.covariance, options_.sigmas, walls.cells->occupancy.geometry());
   window.reach_m = window.reach_m.cwiseMin(options_.widest_m);
   window.reach_rad = std::min(window.reach_rad, options_.widest_rad);
   const PoseSearchOptions search{
@@ -151,8 +156,8 @@ std::vector<LoopCloser::Match> LoopCloser::matches(const SubmapWalls& walls, con
   return matches;
 }
 
-void LoopCloser::along_what_scans_leave_open(const SubmapWalls& walls, const Stretch& stretch, const PosePrior& prior,
-                                             std::vector<Match>& matches) const {
+void LoopCloser::along_what_scans_leave_open(const SubmapWalls& walls, const Stretch& stretch,
+                                             const PosePrior& prior, std::vector<Match>& matches) const {
   constexpr double kOpen_m = 0.12, kStep_m = 0.1;
   const Matrix3d prior_information = prior.covariance.inverse();
   std::vector<Match> more;
@@ -252,12 +257,13 @@ void LoopCloser::let_go_where_known(std::size_t s, const Closure& closure) {
   Submap& newest = submaps_.back();
   if (&newest == &submaps_[s] || newest.keyframes.empty()) return;
   if (stretch_.back().travelled_m - newest.end_m > options_.stretch_m) return;
-  const Pose2 base_T_newest = between(stretch_.back().chain_T_base,
-                                      newest.keyframes[newest.origin - newest.first].chain_T_base);
+  const Pose2 base_T_newest =
+      between(stretch_.back().chain_T_base, newest.keyframes[newest.origin - newest.first].chain_T_base);
   const Pose2 there = closure.from_T_to * base_T_newest;
   constexpr double kNear_m = 0.75, kAlike_rad = 0.8;
   double distance_m = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector2d& p : submaps_[s].way_m) distance_m = std::min(distance_m, (p - there.position()).norm());
+  for (const Eigen::Vector2d& p : submaps_[s].way_m)
+    distance_m = std::min(distance_m, (p - there.position()).norm());
   if (distance_m < kNear_m && std::abs(there.yaw) < kAlike_rad) {
     ready_.remove_if([&](const auto& r) { return r.first + 1 == submaps_.size(); });
     newest.keyframes.clear();

@@ -136,20 +136,21 @@ void PoseGraph::solve() {
   for (const Pose2& pose : poses_) poses.push_back(parameters_of(pose));
   Parameters wheels{wheels_.scale, wheels_.drift_rad_per_m, wheels_.turn_scale};
   ceres::Problem problem;
-  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<WheelPrior, 3, 3>(new WheelPrior{options_.wheels_sd}),
-                           nullptr, wheels.data());
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<WheelPrior, 3, 3>(new WheelPrior{options_.wheels_sd}), nullptr,
+      wheels.data());
   const auto tie = [&](std::size_t a, std::size_t b, const Pose2& motion, const Matrix3d& information,
                        ceres::LossFunction* loss) {
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<MotionResidual, 3, 3, 3>(new MotionResidual{motion, root_of(information)}),
-        loss, poses[a].data(), poses[b].data());
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<MotionResidual, 3, 3, 3>(
+                                 new MotionResidual{motion, root_of(information)}),
+                             loss, poses[a].data(), poses[b].data());
   };
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const ChainLink& link = links_[i];
     if (link.wheels_information.isZero()) continue;  // a new drive
     // Wheels slip and recordings have gaps: where wheels and scans contradict each other the wheels give in.
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<WheelResidual, 3, 3, 3, 3>(new WheelResidual{
-                                 link.by_wheels, root_of(link.wheels_information)}),
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<WheelResidual, 3, 3, 3, 3>(
+                                 new WheelResidual{link.by_wheels, root_of(link.wheels_information)}),
                              new ceres::CauchyLoss(2.0), poses[i - 1].data(), poses[i].data(), wheels.data());
     if (!link.scans_information.isZero())
       tie(i - 1, i, link.by_scans, link.scans_information, new ceres::HuberLoss(4.0));

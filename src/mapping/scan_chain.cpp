@@ -11,9 +11,8 @@ namespace {
 
 /// Thinned and not too many, each with its direction.
 std::vector<FacedPoint> chosen(std::vector<BeamReturn> returns, const ScanChainOptions& options) {
-  std::erase_if(returns, [&](const BeamReturn& r) {
-    return (r.point_m - r.origin_m).norm() > options.max_range_m;
-  });
+  std::erase_if(returns,
+                [&](const BeamReturn& r) { return (r.point_m - r.origin_m).norm() > options.max_range_m; });
   std::vector<FacedPoint> kept;
   PointSet places;
   for (const FacedPoint& p : faced_points(returns)) {
@@ -37,7 +36,10 @@ Eigen::Matrix3d in_base(const Eigen::Matrix3d& information_in_map, double yaw_ra
 }  // namespace
 
 ScanChain::ScanChain(const Rig& rig, const ScanChainOptions& options)
-    : rig_(rig), options_(options), stations_(rig, options.stations), walls_(options.recent_m, options.walls) {}
+    : rig_(rig),
+      options_(options),
+      stations_(rig, options.stations),
+      walls_(options.recent_m, options.walls) {}
 
 void ScanChain::observe(const OdometryReading& odometry) {
   track_.add(odometry);
@@ -88,8 +90,8 @@ bool ScanChain::moved(const Pose2& from, const Pose2& to, double share) const {
 }
 
 bool ScanChain::is_due(Stamp stamp, const Pose2& track_T_base) const {
-  return !at_ || stamp - at_->stamp >= options_.matched_s || moved(at_->track_T_base, track_T_base, options_.matched_share) ||
-         track_.breaks() != breaks_at_last_;
+  return !at_ || stamp - at_->stamp >= options_.matched_s ||
+         moved(at_->track_T_base, track_T_base, options_.matched_share) || track_.breaks() != breaks_at_last_;
 }
 
 WallFit ScanChain::matched(const PointSet& points, const PosePrior& prior) const {

@@ -93,7 +93,8 @@ void Slam::use_anchor(Drive& drive) {
   if (drive.first == 0) return;
   const std::size_t last = kept_.size() - 1;
   const auto then = trajectory_of(drive.chain.matched_scans()).at(anchor.stamp, kAnyGap_s);
-  const Pose2 now = anchor.map_T_base * between(then.value_or(kept_[last].chain_T_base), kept_[last].chain_T_base);
+  const Pose2 now =
+      anchor.map_T_base * between(then.value_or(kept_[last].chain_T_base), kept_[last].chain_T_base);
   graph_.move_tail(drive.first, last, now);
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < drive.first; ++i)
@@ -118,7 +119,8 @@ void Slam::look() {
     closed_since_ = true;
   }
   // A loop that moves the map does so at once; small improvements wait until the graph has grown by a tenth.
-  if (moves || (closed_since_ && graph_.size() > optimised_at_ + std::max<std::size_t>(100, graph_.size() / 10)))
+  if (moves ||
+      (closed_since_ && graph_.size() > optimised_at_ + std::max<std::size_t>(100, graph_.size() / 10)))
     optimise();
 }
 
@@ -135,11 +137,14 @@ DriveTrack Slam::track_of(std::size_t d) const {
   for (std::size_t i = drives_[d]->first; i < kept_.size() && kept_[i].drive == d; ++i)
     keyframes.push_back({kept_[i].stamp, kept_[i].chain_T_base, graph_.pose(i)});
   // First the matched scans between the keyframes, then odometry between the scans.
-  const Trajectory scans = bent_track(chain.matched_scans(), keyframes), track = trajectory_of(chain.odometry());
+  const Trajectory scans = bent_track(chain.matched_scans(), keyframes),
+                   track = trajectory_of(chain.odometry());
   std::vector<TrackKnot> knots;
   for (std::size_t i = 0; i < scans.size(); ++i)
-    if (const auto at = track.at(scans[i].stamp, kAnyGap_s)) knots.push_back({scans[i].stamp, *at, scans[i].pose});
-  if (knots.empty()) knots.push_back({chain.odometry().front().stamp, track.front().pose, scans.front().pose});
+    if (const auto at = track.at(scans[i].stamp, kAnyGap_s))
+      knots.push_back({scans[i].stamp, *at, scans[i].pose});
+  if (knots.empty())
+    knots.push_back({chain.odometry().front().stamp, track.front().pose, scans.front().pose});
   return {bent_track(chain.odometry(), knots), chain.travelled_m(), chain.scans(), chain.breaks()};
 }
 

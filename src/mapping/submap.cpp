@@ -9,12 +9,13 @@ namespace {
 constexpr double kCell_m = 0.1;
 constexpr double kSigma_m = 0.15;  // of the search's likelihood: a cell and a half
 
-void add_fields(const Keyframe& keyframe, const Pose2& frame_T_base, const Eigen::Vector2d& magnetometer_base_m,
-                std::vector<FieldAt>& fields) {
+void add_fields(const Keyframe& keyframe, const Pose2& frame_T_base,
+                const Eigen::Vector2d& magnetometer_base_m, std::vector<FieldAt>& fields) {
   for (const joint::Station& station : keyframe.stations) {
     const Pose2 then = frame_T_base * station.base_T_then;
     const Eigen::Vector2d level = then.rotation() * station.base_field_uT.head<2>();
-    fields.push_back({then * magnetometer_base_m, {level.x(), level.y(), station.base_field_uT.z()}, then.yaw});
+    fields.push_back(
+        {then * magnetometer_base_m, {level.x(), level.y(), station.base_field_uT.z()}, then.yaw});
   }
 }
 
@@ -59,13 +60,15 @@ Stretch stretch_of(std::span<const Keyframe> keyframes, std::size_t origin,
     for (const FacedPoint& p : keyframes[i].points_base_m) points_m.push_back(origin_T_base * p.point_m);
   }
   for (const Keyframe& k : keyframes)
-    add_fields(k, between(keyframes[origin].chain_T_base, k.chain_T_base), magnetometer_base_m, stretch.fields);
+    add_fields(k, between(keyframes[origin].chain_T_base, k.chain_T_base), magnetometer_base_m,
+               stretch.fields);
   stretch.points_m = thinned(points_m, spacing_m);
   return stretch;
 }
 
 SubmapWalls::SubmapWalls(const Submap& submap)
-    : walls({0, 0}, walls_around(all_points(submap.keyframes, submap.keyframes[submap.origin - submap.first].chain_T_base))) {
+    : walls({0, 0}, walls_around(all_points(submap.keyframes,
+                                            submap.keyframes[submap.origin - submap.first].chain_T_base))) {
   const Pose2 chain_T_origin = submap.keyframes[submap.origin - submap.first].chain_T_base;
   for (const Keyframe& k : submap.keyframes) {
     const Pose2 origin_T_base = between(chain_T_origin, k.chain_T_base);

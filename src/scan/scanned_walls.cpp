@@ -21,8 +21,8 @@ bool normal_of(const std::vector<BeamReturn>& returns, std::size_t first, std::s
   }
   const double along_rad = 0.5 * std::atan2(2 * xy, xx - yy);
   normal = {-std::sin(along_rad), std::cos(along_rad)};
-  const double across = normal.x() * normal.x() * xx + 2 * normal.x() * normal.y() * xy +
-                        normal.y() * normal.y() * yy;
+  const double across =
+      normal.x() * normal.x() * xx + 2 * normal.x() * normal.y() * xy + normal.y() * normal.y() * yy;
   constexpr double kFlat = 0.3;  // of the spread along the wall: more is no line
   return across < kFlat * kFlat * (xx + yy - across);
 }
@@ -47,7 +47,8 @@ std::vector<FacedPoint> faced_points(const std::vector<BeamReturn>& returns, dou
   if (returns.size() < 3) return faced;
   const auto joined = [&](std::size_t a, std::size_t b) {
     const double gap_m = (returns[a].point_m - returns[b].point_m).norm();
-    const Eigen::Vector2d u = returns[a].point_m - returns[a].origin_m, v = returns[b].point_m - returns[b].origin_m;
+    const Eigen::Vector2d u = returns[a].point_m - returns[a].origin_m,
+                          v = returns[b].point_m - returns[b].origin_m;
     const double spread_m = std::abs(u.x() * v.y() - u.y() * v.x()) / std::max(u.norm(), 1e-6);
     return gap_m <= std::max(max_gap_m, 3.0 * spread_m);
   };
@@ -56,7 +57,8 @@ std::vector<FacedPoint> faced_points(const std::vector<BeamReturn>& returns, dou
   for (std::size_t i = 0; i < returns.size(); ++i) {
     std::size_t first = i, last = i;
     const auto near = [&](std::size_t k, std::size_t apart) {
-      return apart <= kToEachSide || (apart <= kMost && (returns[k].point_m - returns[i].point_m).norm() < kHalf_m);
+      return apart <= kToEachSide ||
+             (apart <= kMost && (returns[k].point_m - returns[i].point_m).norm() < kHalf_m);
     };
     while (first > 0 && to_next[first - 1] && near(first - 1, i - first + 1)) --first;
     while (last + 1 < returns.size() && to_next[last] && near(last + 1, last + 1 - i)) ++last;
@@ -124,7 +126,8 @@ WallSample ScannedWalls::sample(const Eigen::Vector2d& map_point_m) const {
   const Piece& piece = pieces_[static_cast<std::size_t>(nearest_[cell])];
   const Eigen::Vector2d d = map_point_m - piece.mean_m();
   const Eigen::Vector3d facing = piece.facing / piece.count;
-  const Eigen::Vector2d slope(facing.x() * d.x() + facing.y() * d.y(), facing.y() * d.x() + facing.z() * d.y());
+  const Eigen::Vector2d slope(facing.x() * d.x() + facing.y() * d.y(),
+                              facing.y() * d.x() + facing.z() * d.y());
   // The larger eigenvalue: 1 for a plain wall, a half for a corner, which is a point.
   const double half = 0.5 * (facing.x() - facing.z());
   const double main = 0.5 + std::sqrt(half * half + facing.y() * facing.y());

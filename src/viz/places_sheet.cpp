@@ -17,10 +17,11 @@ Canvas draw_places(const OccupancyGrid& map, const std::vector<PlaceMark>& place
   const double air_m = 0.02 * extent_m.sizes().maxCoeff();
   extent_m = {extent_m.min().array() - air_m, extent_m.max().array() + air_m};
   const double map_width = width_px - 2.0 * kMargin;
-  const double map_height = std::clamp(map_width * extent_m.sizes().y() / std::max(extent_m.sizes().x(), 1e-3), 200.0,
-                                       kMaxMapHeight);
+  const double map_height = std::clamp(
+      map_width * extent_m.sizes().y() / std::max(extent_m.sizes().x(), 1e-3), 200.0, kMaxMapHeight);
   const double top = kMargin + kHeader;
-  const Eigen::AlignedBox2d frame(Eigen::Vector2d(kMargin, top), Eigen::Vector2d(kMargin + map_width, top + map_height));
+  const Eigen::AlignedBox2d frame(Eigen::Vector2d(kMargin, top),
+                                  Eigen::Vector2d(kMargin + map_width, top + map_height));
   Canvas canvas(width_px, std::ceil(top + map_height + kFooter + kMargin / 2), theme::kPaper);
   const MapView view(extent_m, frame);
   canvas.text({kMargin, kMargin + 24.0}, title, {.size = 28.0, .color = theme::kInk, .bold = true});
@@ -31,7 +32,8 @@ Canvas draw_places(const OccupancyGrid& map, const std::vector<PlaceMark>& place
   const double radius_px = std::max(1.5, 0.42 * spacing_m * view.px_per_m());
   for (const PlaceMark& mark : places) {
     canvas.disc(view.to_px(mark.place_m), radius_px, viridis(mark.share));
-    if (mark.warning) canvas.circle(view.to_px(mark.place_m), radius_px, {theme::kEstimate, 0.35 * radius_px, {}});
+    if (mark.warning)
+      canvas.circle(view.to_px(mark.place_m), radius_px, {theme::kEstimate, 0.35 * radius_px, {}});
   }
   draw_scale_bar(canvas, view, frame, 200.0);
   canvas.end_clip();

@@ -39,9 +39,9 @@ nlohmann::json json_in(const std::string& text) { return nlohmann::json::parse(t
 
 TEST(MapOccupancy, MakesAMapAndSaysHowGoodItIs) {
   const Driven& site = Driven::get();
-  const Printed made =
-      run_app("map occupancy --json --truth-topic /ground_truth -o " + site.path("made.yaml") + " --tum " +
-              site.path("way.tum") + " --picture " + site.path("made.png") + " --report " + site.path("r.json") + " " + site.log());
+  const Printed made = run_app("map occupancy --json --truth-topic /ground_truth -o " +
+                               site.path("made.yaml") + " --tum " + site.path("way.tum") + " --picture " +
+                               site.path("made.png") + " --report " + site.path("r.json") + " " + site.log());
   ASSERT_EQ(made.exit_status, 0) << made.text;
   const auto report = json_in(made.text);
   EXPECT_LT(report.at("against_truth").at("ate_rms_m").get<double>(), 0.15);
@@ -50,7 +50,8 @@ TEST(MapOccupancy, MakesAMapAndSaysHowGoodItIs) {
   const OccupancyGrid drawn = must(io::read_map(site.path("made.yaml")));
   const OccupancyGrid real = must(io::read_map(site.path("map.yaml")));
   const auto free_m2 = [](const OccupancyGrid& g) {
-    return static_cast<double>(count(g, CellState::kFree)) * g.geometry().resolution_m * g.geometry().resolution_m;
+    return static_cast<double>(count(g, CellState::kFree)) * g.geometry().resolution_m *
+           g.geometry().resolution_m;
   };
   EXPECT_NEAR(free_m2(drawn) / free_m2(real), 1.0, 0.15);
   EXPECT_GT(must(io::read_tum(site.path("way.tum"))).size(), 1000U);
@@ -66,7 +67,8 @@ TEST(MapOccupancy, IsTheSameAtAnyNumberOfThreads) {
                       site.path(std::string("t") + threads + ".tum") + " " + site.log())
                   .exit_status,
               0);
-  EXPECT_EQ(must(io::read_file(site.path("t1.tum"), 1U << 26)), must(io::read_file(site.path("t4.tum"), 1U << 26)));
+  EXPECT_EQ(must(io::read_file(site.path("t1.tum"), 1U << 26)),
+            must(io::read_file(site.path("t4.tum"), 1U << 26)));
 }
 
 TEST(MapOccupancy, GoesWithoutOdometryAndSaysSo) {
@@ -81,30 +83,34 @@ TEST(MapOccupancy, GoesWithoutOdometryAndSaysSo) {
 TEST(MapOccupancy, AsksForWhatItNeeds) {
   const Driven& site = Driven::get();
   EXPECT_EQ(run_app("map occupancy -o x.yaml").exit_status, 2);
-  EXPECT_EQ(run_app("map occupancy -o " + site.path("x.yaml") + " " + site.path("absent.mcap")).exit_status, 1);
+  EXPECT_EQ(run_app("map occupancy -o " + site.path("x.yaml") + " " + site.path("absent.mcap")).exit_status,
+            1);
   const Printed no_scans =
       run_app("map occupancy --scan-topic /nothing -o " + site.path("x.yaml") + " " + site.log());
   EXPECT_EQ(no_scans.exit_status, 1);
   EXPECT_TRUE(no_scans.says("/nothing")) << no_scans.text;
-  const Printed own_log = run_app("map occupancy -o " + site.path("x.yaml") + " --report " + site.log() + " " + site.log());
+  const Printed own_log =
+      run_app("map occupancy -o " + site.path("x.yaml") + " --report " + site.log() + " " + site.log());
   EXPECT_EQ(own_log.exit_status, 1) << "a report must not overwrite the log";
   EXPECT_FALSE(std::filesystem::exists(site.path("x.yaml")));
 }
 
 TEST(MapAll, MakesBothMapsOfSeveralDrives) {
   const Driven& site = Driven::get();
-  const Printed made = run_app("map all --json --truth-topic /ground_truth -o " + site.path("all") + " " + site.log() +
-                               " " + site.path("run_00.mcap"));
+  const Printed made = run_app("map all --json --truth-topic /ground_truth -o " + site.path("all") + " " +
+                               site.log() + " " + site.path("run_00.mcap"));
   // The run has no true poses under that topic; without the wish for them both are joined.
   EXPECT_EQ(made.exit_status, 1) << made.text;
-  const Printed joined = run_app("map all --json -o " + site.path("all") + " " + site.log() + " " + site.path("run_00.mcap"));
+  const Printed joined =
+      run_app("map all --json -o " + site.path("all") + " " + site.log() + " " + site.path("run_00.mcap"));
   ASSERT_EQ(joined.exit_status, 0) << joined.text;
   EXPECT_EQ(json_in(joined.text).at("drives").size(), 2U);
   const FieldMap field = must(io::read_field_map(site.path("all/field.nc")));
   EXPECT_GT(field.geometry.size(), 1000U);
   EXPECT_TRUE(std::filesystem::exists(site.path("all/trajectory_1.tum")));
-  const Printed located = run_app("localize --quiet --map " + site.path("all/map.yaml") + " --field " +
-                                  site.path("all/field.nc") + " -o " + site.path("e.jsonl") + " " + site.path("run_01.mcap"));
+  const Printed located =
+      run_app("localize --quiet --map " + site.path("all/map.yaml") + " --field " +
+              site.path("all/field.nc") + " -o " + site.path("e.jsonl") + " " + site.path("run_01.mcap"));
   EXPECT_EQ(located.exit_status, 0) << located.text;
 }
 

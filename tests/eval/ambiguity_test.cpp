@@ -20,7 +20,8 @@ AmbiguityOptions few() {
 }
 
 int sum_of(const std::vector<AmbiguousPlace>& places, int AmbiguousPlace::*what) {
-  return std::accumulate(places.begin(), places.end(), 0, [&](int sum, const AmbiguousPlace& p) { return sum + p.*what; });
+  return std::accumulate(places.begin(), places.end(), 0,
+                         [&](int sum, const AmbiguousPlace& p) { return sum + p.*what; });
 }
 
 /// The same building with next to no field: half a turn of it looks almost the same.
@@ -45,7 +46,8 @@ TEST(Ambiguity, AFieldThatDiffersEverywhereMakesPlacesKnown) {
 
 TEST(Ambiguity, WithoutAFieldFewerAreAnsweredAndNoneWrongly) {
   const HandMadeWorld world;
-  const auto with = must(find_ambiguity(world.maps, few())), without = must(find_ambiguity(without_field(world), few()));
+  const auto with = must(find_ambiguity(world.maps, few())),
+             without = must(find_ambiguity(without_field(world), few()));
   EXPECT_LT(sum_of(without, &AmbiguousPlace::right), sum_of(with, &AmbiguousPlace::right));
   EXPECT_EQ(sum_of(without, &AmbiguousPlace::wrong), 0);
 }

@@ -17,8 +17,7 @@ TEST(BentTrack, MeetsItsKnotsAndIsOdometryElsewhere) {
                                      {Stamp::from_seconds(6.25), {1.25, 0, 0}, {10.2, 5.9, 1.6}}};
   const Trajectory bent = bent_track(track, knots);
   EXPECT_EQ(bent.size(), track.size() + 1);  // the second knot lies between two readings
-  for (const TrackKnot& knot : knots)
-    EXPECT_LT(distance(*bent.at(knot.stamp, 1.0), knot.map_T_base), 1e-9);
+  for (const TrackKnot& knot : knots) EXPECT_LT(distance(*bent.at(knot.stamp, 1.0), knot.map_T_base), 1e-9);
   const Pose2 before = knots[0].map_T_base * between(knots[0].track_T_base, track[0].pose);
   EXPECT_LT(distance(bent.front().pose, before), 1e-9);
   const Pose2 after = knots[1].map_T_base * between(knots[1].track_T_base, track[20].pose);

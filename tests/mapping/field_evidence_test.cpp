@@ -17,7 +17,8 @@ class WavyField {
     Random random(seed);
     for (int i = 0; i < 40; ++i) {
       const double direction = random.uniform(-kPi, kPi), per_m = 2 * kPi / random.uniform(1.5, 8.0);
-      waves_.push_back({per_m * Eigen::Vector2d(std::cos(direction), std::sin(direction)), random.uniform(0, 2 * kPi),
+      waves_.push_back({per_m * Eigen::Vector2d(std::cos(direction), std::sin(direction)),
+                        random.uniform(0, 2 * kPi),
                         Eigen::Vector3d(random.normal(), random.normal(), random.normal())});
     }
   }
@@ -38,10 +39,11 @@ class WavyField {
   std::vector<Wave> waves_;
 };
 
-/// Readings along a straight way in the building, seen from a frame of which `building_T_frame` is known, by a
-/// sensor with a bias, its robot facing along the way or against it.
-std::vector<FieldAt> driven(const WavyField& field, const Eigen::Vector2d& from, double direction, double length_m,
-                            const Pose2& building_T_frame, const Eigen::Vector3d& bias_uT, Random random) {
+/// Readings along a straight way in the building, seen from a frame of which `building_T_frame` is known, by
+/// a sensor with a bias, its robot facing along the way or against it.
+std::vector<FieldAt> driven(const WavyField& field, const Eigen::Vector2d& from, double direction,
+                            double length_m, const Pose2& building_T_frame, const Eigen::Vector3d& bias_uT,
+                            Random random) {
   std::vector<FieldAt> readings;
   const Eigen::Vector2d along(std::cos(direction), std::sin(direction));
   const Eigen::Matrix2d frame_R_building = building_T_frame.rotation().transpose();
@@ -52,7 +54,8 @@ std::vector<FieldAt> driven(const WavyField& field, const Eigen::Vector2d& from,
     measured.z() += bias_uT.z();
     for (int k = 0; k < 3; ++k) measured[k] += random.normal(0, 0.2);
     const Eigen::Vector2d level = frame_R_building * measured.head<2>();
-    readings.push_back({inverse(building_T_frame) * p, {level.x(), level.y(), measured.z()},
+    readings.push_back({inverse(building_T_frame) * p,
+                        {level.x(), level.y(), measured.z()},
                         angle_between(building_T_frame.yaw, direction)});
   }
   return readings;
@@ -87,8 +90,8 @@ TEST(FieldEvidence, KnowsThePlaceInEitherDirectionWhateverTheBias) {
     const auto newer = driven(place.field, from, direction, 4, building_T_b, bias, Random(2));
     EXPECT_GT(field_evidence(older, newer, a_T_b, place.variogram).log_ratio, 7.0) << direction;
     // The same drive taken for one of another place, with the same geometry.
-    const auto elsewhere =
-        driven(place.field, from + Eigen::Vector2d(0, 30), direction, 4, Pose2{5.5, 70.2, -2.0}, bias, Random(3));
+    const auto elsewhere = driven(place.field, from + Eigen::Vector2d(0, 30), direction, 4,
+                                  Pose2{5.5, 70.2, -2.0}, bias, Random(3));
     EXPECT_LT(field_evidence(older, elsewhere, a_T_b, place.variogram).log_ratio, -5.0) << direction;
   }
 }

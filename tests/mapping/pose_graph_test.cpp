@@ -36,7 +36,8 @@ TEST(PoseGraph, AClosureTakesTheDriftOut) {
   Random random(1);
   for (const Pose2& step : square_steps()) {
     truth.push_back(truth.back() * step);
-    const Pose2 measured = step * Pose2{random.normal(0, 0.01), random.normal(0, 0.01), random.normal(0.004, 0.004)};
+    const Pose2 measured =
+        step * Pose2{random.normal(0, 0.01), random.normal(0, 0.01), random.normal(0.004, 0.004)};
     graph.add({measured, kUnsure, measured, kUnsure});
   }
   const double drifted_m = distance(graph.pose(95), truth[95]);
@@ -57,7 +58,8 @@ TEST(PoseGraph, AWrongClosureIsRefutedByTheOthers) {
     graph.add({step, kUnsure, step, kSure});
   }
   for (std::size_t i = 0; i < 15; ++i)
-    graph.add(Closure{.from = i, .to = i + 80, .from_T_to = between(truth[i], truth[i + 80]), .information = kSure});
+    graph.add(Closure{
+        .from = i, .to = i + 80, .from_T_to = between(truth[i], truth[i + 80]), .information = kSure});
   graph.add(Closure{.from = 10, .to = 70, .from_T_to = {0.2, 0.1, 0.0}, .information = kSure});
   graph.optimise();
   EXPECT_TRUE(graph.closures().back().refuted);
@@ -109,10 +111,12 @@ TEST(PoseGraph, UncertaintyIsWhatManyDrivesShow) {
   for (int i = 0; i < kDrives; ++i) {
     Pose2 end;
     for (const Pose2& step : steps)  // errors in the axes of the step's start
-      end = end * Pose2::from({step.x + random.normal(0, std::sqrt(1 / 800.0)), step.y + random.normal(0, std::sqrt(1 / 800.0))},
+      end = end * Pose2::from({step.x + random.normal(0, std::sqrt(1 / 800.0)),
+                               step.y + random.normal(0, std::sqrt(1 / 800.0))},
                               step.yaw + random.normal(0, std::sqrt(1 / 4000.0)));
     const Pose2 back = inverse(end);
-    const Eigen::Vector3d e(back.x - last_T_first.x, back.y - last_T_first.y, angle_between(last_T_first.yaw, back.yaw));
+    const Eigen::Vector3d e(back.x - last_T_first.x, back.y - last_T_first.y,
+                            angle_between(last_T_first.yaw, back.yaw));
     seen += e * e.transpose() / kDrives;
   }
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(std::sqrt(claimed(k, k) / seen(k, k)), 1.0, 0.1) << k;

@@ -100,7 +100,8 @@ TEST(Slam, JoinsAnotherDriveAtItsAnchor) {
   Slam slam;
   slam.begin_drive(first.rig);
   feed_to(slam, first.events);
-  const Pose2 true_T_map = first.truth.front().pose * inverse(must(slam.track()).drives[0].map_T_base.front().pose);
+  const Pose2 true_T_map =
+      first.truth.front().pose * inverse(must(slam.track()).drives[0].map_T_base.front().pose);
   // Known after 5 m, to 15 cm and 2 deg.
   const std::size_t then = second.truth.size() / 12;
   const Anchor anchor{second.truth[then].stamp,
@@ -136,7 +137,8 @@ TEST(Slam, ComplainsOfWhatIsMissing) {
     for (const SensorEvent& event : drive.events) {
       if (const auto* odometry = std::get_if<OdometryReading>(&event); odometry != nullptr && with_odometry)
         slam.observe(*odometry);
-      if (const auto* scan = std::get_if<LaserScan>(&event); scan != nullptr && !with_odometry) slam.observe(*scan);
+      if (const auto* scan = std::get_if<LaserScan>(&event); scan != nullptr && !with_odometry)
+        slam.observe(*scan);
     }
     const auto track = slam.track();
     ASSERT_FALSE(track.ok());

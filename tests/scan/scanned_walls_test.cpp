@@ -28,7 +28,8 @@ std::vector<BeamReturn> room_from(const Pose2& room_T_base) {
 TEST(FacedPoints, FaceAsTheirWallsDo) {
   for (const FacedPoint& p : faced_points(room_from({}))) {
     EXPECT_NEAR(p.normal.norm(), 1.0, 1e-9);
-    const bool in_corner = std::abs(std::abs(p.point_m.x()) - 3) < 0.2 && std::abs(std::abs(p.point_m.y()) - 2) < 0.2;
+    const bool in_corner =
+        std::abs(std::abs(p.point_m.x()) - 3) < 0.2 && std::abs(std::abs(p.point_m.y()) - 2) < 0.2;
     if (in_corner) continue;
     const bool on_side = std::abs(std::abs(p.point_m.x()) - 3.0) < 1e-9;
     EXPECT_NEAR(std::abs(on_side ? p.normal.x() : p.normal.y()), 1.0, 1e-6) << p.point_m.transpose();
@@ -36,7 +37,8 @@ TEST(FacedPoints, FaceAsTheirWallsDo) {
 }
 
 TEST(FacedPoints, LeaveOutWhatHasNoNeighbours) {
-  const std::vector<BeamReturn> far_apart{{{0, 0}, {1, 0}}, {{0, 0}, {0, 5}}, {{0, 0}, {-9, 0}}, {{0, 0}, {0, -3}}};
+  const std::vector<BeamReturn> far_apart{
+      {{0, 0}, {1, 0}}, {{0, 0}, {0, 5}}, {{0, 0}, {-9, 0}}, {{0, 0}, {0, -3}}};
   EXPECT_TRUE(faced_points(far_apart).empty());
   EXPECT_TRUE(faced_points({}).empty());
 }
@@ -64,7 +66,8 @@ TEST(ScannedWalls, AScanIsFittedToWhatAnotherShowed) {
     const Pose2 truth{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)};
     const Pose2 guess = truth * Pose2{random.normal(0, 0.05), random.normal(0, 0.05), random.normal(0, 0.02)};
     const PointSet points = thinned(end_points(room_from(truth)), 0.1);
-    const WallFit fit = fit_to_walls(walls, points, PosePrior::isotropic(guess, 0.1, 0.05), {.sigma_m = 0.06, .max_iterations = 15});
+    const WallFit fit = fit_to_walls(walls, points, PosePrior::isotropic(guess, 0.1, 0.05),
+                                     {.sigma_m = 0.06, .max_iterations = 15});
     EXPECT_LT(distance(fit.map_T_base, truth), 0.02) << i;
     EXPECT_NEAR(angle_between(fit.map_T_base.yaw, truth.yaw), 0.0, 0.01);
     EXPECT_GT(fit.score, 0.95);

@@ -42,10 +42,10 @@ struct AmbiguousPlace {
   double field_known = 0.0;
 };
 
-/// Where in a building a robot will find itself, computed from its maps alone: drives of a few metres are made
-/// up from them (scans cast in the occupancy map, the field as the field map has it, off by as much as it
-/// says it may be) and given to the joint method. What the maps do not know (people, moved things) is not in
-/// it: it is the best to be hoped for, and shows where to survey again, or where to put a piece of iron.
+/// Where in a building a robot will find itself, computed from its maps alone: drives of a few metres are
+/// made up from them (scans cast in the occupancy map, the field as the field map has it, off by as much as
+/// it says it may be) and given to the joint method. What the maps do not know (people, moved things) is not
+/// in it: it is the best to be hoped for, and shows where to survey again, or where to put a piece of iron.
 /// Errors: an end asked for.
 Result<std::vector<AmbiguousPlace>> find_ambiguity(std::shared_ptr<const LocalizationMaps> maps,
                                                    const AmbiguityOptions& options = {});

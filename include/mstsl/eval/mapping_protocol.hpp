@@ -13,15 +13,15 @@
 namespace mstsl {
 
 /// The robots that drive: "good" has a laser that sees 30 m over 270 deg (UTM-30LX) and wheels of 3 % and 1
-/// deg/m; "cheap" one of 8 m, one beam a degree, 5.5 Hz, 2 cm of noise (the class of an RPLIDAR A1) and wheels
-/// of 6 % and 2 deg/m.
+/// deg/m; "cheap" one of 8 m, one beam a degree, 5.5 Hz, 2 cm of noise (the class of an RPLIDAR A1) and
+/// wheels of 6 % and 2 deg/m.
 std::vector<std::string> mapping_robot_names();
 
 /// Drives through simulated buildings, mapped by scans alone and by scans and field.
 struct MappingProtocolOptions {
   std::vector<std::string> worlds{"symmetric-loop", "h-wing", "office-wing", "warehouse", "corridor"};
   std::vector<std::string> robots = mapping_robot_names();
-  int runs = 20;            ///< of each world, each with other steel and another way, the same for every robot
+  int runs = 20;  ///< of each world, each with other steel and another way, the same for every robot
   double length_m = 400.0;  ///< driven per run
   std::uint64_t seed = 1;
   Threads threads;
@@ -35,11 +35,11 @@ struct MappingRecord {
   bool with_field = false;
   double driven_m = 0.0;
   std::size_t closures = 0;
-  std::size_t wrong_closures = 0;          ///< off by more than half a metre or 10 deg, and not refuted
-  std::size_t refuted = 0;                 ///< wrong or not
+  std::size_t wrong_closures = 0;  ///< off by more than half a metre or 10 deg, and not refuted
+  std::size_t refuted = 0;         ///< wrong or not
   std::size_t ambiguous = 0, refused_by_field = 0, closed_only_with_field = 0;
   double ate_rms_m = 0.0, ate_max_m = 0.0;
-  double map_error = 0.0;     ///< share of the map's walls that lie more than 0.2 m from a true surface
+  double map_error = 0.0;  ///< share of the map's walls that lie more than 0.2 m from a true surface
   double cpu_s = 0.0;
   double driven_s = 0.0;
 };

@@ -11,8 +11,8 @@ namespace mstsl {
 
 /// How far a trajectory is from the true one, after the rigid motion that brings them together best.
 struct TrajectoryError {
-  Pose2 true_T_map;      ///< that motion (Umeyama 1991, without scale)
-  double rms_m = 0.0;    ///< absolute trajectory error
+  Pose2 true_T_map;    ///< that motion (Umeyama 1991, without scale)
+  double rms_m = 0.0;  ///< absolute trajectory error
   double max_m = 0.0;
 };
 

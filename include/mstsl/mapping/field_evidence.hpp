@@ -13,8 +13,8 @@
 namespace mstsl {
 
 /// How much the field of this building differs over a distance, learned from the drive itself: the mean
-/// squared difference of a component between two places (twice a variogram), from readings of one stretch, where a
-/// bias of the sensor cancels.
+/// squared difference of a component between two places (twice a variogram), from readings of one stretch,
+/// where a bias of the sensor cancels.
 class FieldVariogram {
  public:
   /// Takes in the readings of a stretch, in the order of the drive.
@@ -45,8 +45,8 @@ struct FieldEvidenceOptions {
   double reach_m = 1.0;
   /// How far a match of scans may be off (m): readings are that much farther apart than they seem.
   double pose_sd_m = 0.07;
-  double noise_uT = 1.0;      ///< of the difference of two readings of one place on one day
-  double bias_sd_uT = 15.0;   ///< of the magnetometer, level axes, where nothing is known of it
+  double noise_uT = 1.0;        ///< of the difference of two readings of one place on one day
+  double bias_sd_uT = 15.0;     ///< of the magnetometer, level axes, where nothing is known of it
   bool one_bias = true;         ///< the same in both stretches: they are of one drive
   double outlier_share = 0.05;  ///< of readings beside something that moved
 };
@@ -61,7 +61,8 @@ struct FieldEvidence {
 
 /// Compares readings of a stretch with those of an older one, frame a, the newer one's frame being at
 /// `a_T_b`; the bias of the sensor (of each drive's) is estimated within.
-FieldEvidence field_evidence(std::span<const FieldAt> older_a, std::span<const FieldAt> newer_b, const Pose2& a_T_b,
-                             const FieldVariogram& variogram, const FieldEvidenceOptions& options = {});
+FieldEvidence field_evidence(std::span<const FieldAt> older_a, std::span<const FieldAt> newer_b,
+                             const Pose2& a_T_b, const FieldVariogram& variogram,
+                             const FieldEvidenceOptions& options = {});
 
 }  // namespace mstsl

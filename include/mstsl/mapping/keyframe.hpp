@@ -21,9 +21,9 @@ struct Keyframe {
   /// Of the match with the scans just before, on (x, y, yaw) in the base's axes here; zero where the scan
   /// tells nothing.
   Eigen::Matrix3d scan_information = Eigen::Matrix3d::Zero();
-  double score = 0.0;                      ///< of that match (WallFit::score)
-  std::vector<FacedPoint> points_base_m;   ///< of its scan, thinned
-  std::vector<joint::Station> stations;    ///< the field since the keyframe before
+  double score = 0.0;                     ///< of that match (WallFit::score)
+  std::vector<FacedPoint> points_base_m;  ///< of its scan, thinned
+  std::vector<joint::Station> stations;   ///< the field since the keyframe before
 };
 
 }  // namespace mstsl

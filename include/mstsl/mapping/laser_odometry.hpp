@@ -38,7 +38,7 @@ class LaserOdometry {
   RecentWalls walls_;
   std::optional<Stamp> last_;
   Pose2 odom_T_base_, drawn_;
-  Pose2 motion_;            ///< over the last scan interval ...
+  Pose2 motion_;             ///< over the last scan interval ...
   double interval_s_ = 0.0;  ///< ... which lasted so long
 };
 

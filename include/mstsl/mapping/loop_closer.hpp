@@ -17,17 +17,17 @@
 namespace mstsl {
 
 struct LoopCloserOptions {
-  double submap_m = 5.0;    ///< way in a submap
+  double submap_m = 5.0;      ///< way in a submap
   double look_every_m = 1.0;  ///< how often older submaps are looked at
-  double stretch_m = 4.0;   ///< way whose scans and field are compared with them together
+  double stretch_m = 4.0;     ///< way whose scans and field are compared with them together
   /// Submaps that ended less than this way ago are no loop (m).
   double least_way_m = 15.0;
   /// Submaps farther away than this (m), and the standard deviation of how far, show nothing in common.
   double nearest_m = 4.0;
-  double widest_m = 12.0;         ///< no wider window than this to each side is searched ...
+  double widest_m = 12.0;           ///< no wider window than this to each side is searched ...
   double widest_rad = radians(30);  ///< ... and no more turned one
-  double sigmas = 3.0;            ///< of the window
-  double min_score = 0.45;        ///< of a match, to be looked at
+  double sigmas = 3.0;              ///< of the window
+  double min_score = 0.45;          ///< of a match, to be looked at
   /// Evidence in a stretch's scan points: what the share of matched points gains counts so many times, as
   /// log probability, from the score on at which a match is as likely one as not.
   double points = 30.0;
@@ -39,9 +39,9 @@ struct LoopCloserOptions {
 
 /// What became of the loops looked at.
 struct LoopCounts {
-  std::size_t looked_at = 0;   ///< submaps matched
+  std::size_t looked_at = 0;  ///< submaps matched
   std::size_t accepted = 0;
-  std::size_t ambiguous = 0;   ///< more than one way to close
+  std::size_t ambiguous = 0;         ///< more than one way to close
   std::size_t refused_by_field = 0;  ///< the scans alone would have closed it
   std::size_t earlier_by_field = 0;  ///< the scans alone would not have closed it
 };
@@ -68,11 +68,12 @@ class LoopCloser {
     Pose2 origin_T_base;
     Eigen::Matrix3d covariance;  ///< axes of the origin
     double score = 0.0;
-    double log_prior = 0.0;      ///< how far it is from where the graph has it
+    double log_prior = 0.0;  ///< how far it is from where the graph has it
     double log_field = 0.0;
   };
   void end_submap();
-  std::vector<std::size_t> near(const PoseGraph& graph, const std::vector<Eigen::Matrix3d>& covariances) const;
+  std::vector<std::size_t> near(const PoseGraph& graph,
+                                const std::vector<Eigen::Matrix3d>& covariances) const;
   const SubmapWalls& walls_of(std::size_t submap);
   std::vector<Match> matches(const SubmapWalls& walls, const Stretch& stretch, const PosePrior& prior) const;
   void along_what_scans_leave_open(const SubmapWalls& walls, const Stretch& stretch, const PosePrior& prior,

@@ -25,9 +25,9 @@ struct Closure {
   std::size_t from = 0, to = 0;
   Pose2 from_T_to;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< on (x, y, yaw) in the axes of `from`
-  bool by_field = false;   ///< the field had a say in it
-  double probability = 0;  ///< of being right, when it was made
-  bool refuted = false;    ///< all the others together say that it is wrong
+  bool by_field = false;                                  ///< the field had a say in it
+  double probability = 0;                                 ///< of being right, when it was made
+  bool refuted = false;                                   ///< all the others together say that it is wrong
 };
 
 struct PoseGraphOptions {

@@ -29,8 +29,8 @@ struct ScanChainOptions {
   double matched_share = 0.3;
   /// ... and after this time (s) whatever the wheels say.
   double matched_s = 0.4;
-  /// Where wheels said nothing for so long (s), a scan that scores less than `lost_below` is looked for as far
-  /// as a robot may have gone meanwhile; a break of odometry counts as so long a silence.
+  /// Where wheels said nothing for so long (s), a scan that scores less than `lost_below` is looked for as
+  /// far as a robot may have gone meanwhile; a break of odometry counts as so long a silence.
   double silence_s = 1.0;
   double break_s = 4.0;
   double lost_below = 0.5;

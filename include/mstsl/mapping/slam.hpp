@@ -58,8 +58,8 @@ struct SlamTrack {
 };
 
 /// Simultaneous localization and mapping: chains of keyframes (ScanChain), loops found by scans and field
-/// together (LoopCloser), all poses by least squares (PoseGraph). Feed it a drive in time order; then another,
-/// if it is known where that was at some time.
+/// together (LoopCloser), all poses by least squares (PoseGraph). Feed it a drive in time order; then
+/// another, if it is known where that was at some time.
 class Slam {
  public:
   explicit Slam(const SlamOptions& options = {});

@@ -16,9 +16,9 @@ namespace mstsl {
 
 /// A reading of the field, seen from a frame that the variable's name says.
 struct FieldAt {
-  Eigen::Vector2d position_m;          ///< of the magnetometer
-  Eigen::Vector3d field_uT;            ///< in the frame's axes
-  double heading_rad = 0.0;            ///< of the base in the frame: it turns a bias of the sensor into it
+  Eigen::Vector2d position_m;  ///< of the magnetometer
+  Eigen::Vector3d field_uT;    ///< in the frame's axes
+  double heading_rad = 0.0;    ///< of the base in the frame: it turns a bias of the sensor into it
 };
 
 /// A stretch of a drive as one rigid piece, seen from the base at its last keyframe: short enough for the
@@ -29,8 +29,8 @@ struct Stretch {
 };
 
 /// The stretch made of keyframes, seen from the base at `keyframes[origin]`.
-Stretch stretch_of(std::span<const Keyframe> keyframes, std::size_t origin, const Eigen::Vector2d& magnetometer_base_m,
-                   double spacing_m);
+Stretch stretch_of(std::span<const Keyframe> keyframes, std::size_t origin,
+                   const Eigen::Vector2d& magnetometer_base_m, double spacing_m);
 
 /// A stretch made ready for finding later scans in it. Frame: the base at its middle keyframe.
 struct Submap {
@@ -46,7 +46,7 @@ struct Submap {
 struct SubmapWalls {
   explicit SubmapWalls(const Submap& submap);
 
-  ScannedWalls walls;                    ///< for fitting
+  ScannedWalls walls;                     ///< for fitting
   std::unique_ptr<const MatchMap> cells;  ///< for searching, coarser
   std::vector<FieldAt> fields;
 };

@@ -10,8 +10,8 @@ namespace mstsl {
 
 struct TrackDrawerOptions {
   MappingOptions map;
-  /// A scan is drawn after so much motion (m, rad) or time (s) since the last one drawn: cells as small as the
-  /// map's are then seen often enough, and a robot that stands shows no more by standing longer.
+  /// A scan is drawn after so much motion (m, rad) or time (s) since the last one drawn: cells as small as
+  /// the map's are then seen often enough, and a robot that stands shows no more by standing longer.
   double every_m = 0.10;
   double every_rad = 0.10;
   double every_s = 2.0;

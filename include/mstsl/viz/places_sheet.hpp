@@ -13,8 +13,8 @@ namespace mstsl::viz {
 /// What is said of one place of a map.
 struct PlaceMark {
   Eigen::Vector2d place_m;
-  double share = 0.0;     ///< 0 (dark) to 1 (bright)
-  bool warning = false;   ///< ringed
+  double share = 0.0;    ///< 0 (dark) to 1 (bright)
+  bool warning = false;  ///< ringed
 };
 
 /// Shares of something, place by place, as discs on the map, with a bar that says what the colours mean.
