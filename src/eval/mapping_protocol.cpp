@@ -12,8 +12,8 @@
 #include "mstsl/core/angles.hpp"
 #include "mstsl/eval/trajectory_error.hpp"
 #include "mstsl/grid/distance_field.hpp"
-#include "mstsl/mapping/occupancy_mapper.hpp"
 #include "mstsl/mapping/slam.hpp"
+#include "mstsl/mapping/track_drawer.hpp"
 #include "mstsl/sim/drive.hpp"
 #include "mstsl/sim/occupancy_map.hpp"
 #include "mstsl/sim/run.hpp"
@@ -101,14 +101,13 @@ bool is_wrong(const Closure& closure, const SlamTrack& track, const Trajectory& 
 double map_error(const Recording& recording, const SlamTrack& track, const Pose2& true_T_map,
                  const OccupancyGrid& true_map) {
   constexpr double kFar_m = 0.2;
-  OccupancyMapper mapper;
-  for (const SensorEvent& event : recording.events) {
-    const auto* scan = std::get_if<LaserScan>(&event);
-    const auto pose =
-        scan == nullptr ? std::nullopt : track.drives.front().map_T_base.at(scan->stamp, kLongestGap_s);
-    if (pose) (void)mapper.insert(*scan, recording.rig.base_T_laser, *pose).ok();
-  }
-  const OccupancyGrid drawn = mapper.grid();
+  TrackDrawer drawer;
+  drawer.begin_drive(recording.rig, track.drives.front().map_T_base);
+  for (const SensorEvent& event : recording.events)
+    if (const auto* scan = std::get_if<LaserScan>(&event)) drawer.observe(*scan);
+  const Result<OccupancyGrid> grid = drawer.grid();
+  if (!grid) return 1.0;
+  const OccupancyGrid& drawn = *grid;
   const DistanceField true_walls(true_map, 1.0);
   Rate far;
   for (std::size_t i = 0; i < drawn.geometry().size(); ++i)
