@@ -73,6 +73,25 @@ Result<io::PlayReport> play_drive(const Session& session, const Logs& logs, cons
   return played;
 }
 
+/// What of a map is to be doubted, a sentence each.
+std::vector<std::string> doubts(const SlamTrack& track) {
+  std::vector<std::string> sentences;
+  const auto standing = std::count_if(track.closures.begin(), track.closures.end(),
+                                      [](const Closure& c) { return !c.refuted; });
+  constexpr double kLongWithoutLoop_m = 60.0, kPoorScore = 0.6;
+  if (standing == 0 && track.way_m() > kLongWithoutLoop_m)
+    sentences.push_back(
+        fmt::format("no loop was closed in {:.0f} m: the map is no better than scans matched one to the "
+                    "next, which may bend it; let the robot come back to where it was",
+                    track.way_m()));
+  if (track.mean_score < kPoorScore)
+    sentences.push_back(
+        fmt::format("a scan fits those before it to {:.0f} % only; check the laser's mounting, and that "
+                    "scans and odometry have one clock",
+                    100 * track.mean_score));
+  return sentences;
+}
+
 class DriveMapper {
  public:
   DriveMapper(const Session& session, const DrivesWish& wish)
@@ -104,6 +123,7 @@ class DriveMapper {
     if (count(*grid, CellState::kFree) == 0)
       return Error(name_of(wish_.logs) + ": no scan showed any free ground");
     mapped.grid = std::move(grid).value();
+    for (std::string& doubt : doubts(*track_)) warnings_.push_back(std::move(doubt));
     mapped.warnings = std::move(warnings_);
     return mapped;
   }

@@ -8,6 +8,8 @@
 
 #include "mstsl/scan/fit_to_walls.hpp"
 
+#include "pose_difference.hpp"
+
 namespace mstsl {
 namespace {
 
@@ -16,10 +18,6 @@ using Eigen::Vector3d;
 
 constexpr double kSpacing_m = 0.2;    // of a stretch's points
 constexpr double kOneAnswer_m = 0.5;  // matches nearer each other say the same
-
-Vector3d off(const Pose2& from, const Pose2& to) {
-  return {to.x - from.x, to.y - from.y, angle_between(from.yaw, to.yaw)};
-}
 
 /// What two rigid pieces of a drive can say of each other at best: 3 cm and a third of a degree.
 Matrix3d least_covariance() { return Vector3d(9e-4, 9e-4, 3.6e-5).asDiagonal(); }
@@ -149,7 +147,7 @@ std::vector<LoopCloser::Match> LoopCloser::matches(const SubmapWalls& walls, con
     Match match{fit.map_T_base, {}, fit.score, 0.0, 0.0};
     // Along what the scans leave open it is known as well as the graph had it.
     match.covariance = (fit.information + prior_information).inverse() + least_covariance();
-    const Vector3d e = off(prior.mean, fit.map_T_base);
+    const Vector3d e = difference(prior.mean, fit.map_T_base);
     match.log_prior = -0.5 * e.dot(prior_information * e);
     matches.push_back(match);
   }
@@ -172,7 +170,7 @@ void LoopCloser::along_what_scans_leave_open(const SubmapWalls& walls, const Str
       shifted.origin_T_base =
           Pose2::from(match.origin_T_base.position() + i * kStep_m * along, match.origin_T_base.yaw);
       shifted.score = wall_score(walls.walls, at_most(stretch.points_m, 300), shifted.origin_T_base, 0.1);
-      const Vector3d e = off(prior.mean, shifted.origin_T_base);
+      const Vector3d e = difference(prior.mean, shifted.origin_T_base);
       shifted.log_prior = -0.5 * e.dot(prior_information * e);
       Matrix3d narrow = Matrix3d::Zero();
       narrow.topLeftCorner<2, 2>() = along * along.transpose() / (kStep_m * kStep_m);
@@ -238,7 +236,7 @@ std::optional<Closure> LoopCloser::close(std::size_t s, const Stretch& stretch, 
   for (const Match& m : found) {
     if (distance(m.origin_T_base, best.origin_T_base) >= kOneAnswer_m) continue;
     const double w = std::exp(log_weight(m) - log_weight(best));
-    const Vector3d e = off(best.origin_T_base, m.origin_T_base);
+    const Vector3d e = difference(best.origin_T_base, m.origin_T_base);
     mean += w * e, spread += w * e * e.transpose(), weights += w;
   }
   mean /= weights;

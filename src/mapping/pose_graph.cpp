@@ -11,6 +11,8 @@
 
 #include "mstsl/core/angles.hpp"
 
+#include "pose_difference.hpp"
+
 namespace mstsl {
 namespace {
 
@@ -31,7 +33,7 @@ T wrapped(const T& angle) {
 
 /// The motion from one pose to the other against a measured one.
 template <typename T>
-Eigen::Matrix<T, 3, 1> difference(const T* a, const T* b, const T& x, const T& y, const T& yaw) {
+Eigen::Matrix<T, 3, 1> off(const T* a, const T* b, const T& x, const T& y, const T& yaw) {
   const T c = ceres::cos(a[2]), s = ceres::sin(a[2]), dx = b[0] - a[0], dy = b[1] - a[1];
   return {c * dx + s * dy - x, -s * dx + c * dy - y, wrapped(T(b[2] - a[2] - yaw))};
 }
@@ -43,7 +45,7 @@ struct MotionResidual {
   template <typename T>
   bool operator()(const T* a, const T* b, T* residual) const {
     Eigen::Map<Eigen::Matrix<T, 3, 1>> r(residual);
-    r = root.cast<T>() * difference(a, b, T(motion.x), T(motion.y), T(motion.yaw));
+    r = root.cast<T>() * off(a, b, T(motion.x), T(motion.y), T(motion.yaw));
     return true;
   }
 };
@@ -58,7 +60,7 @@ struct WheelResidual {
     Eigen::Map<Eigen::Matrix<T, 3, 1>> r(residual);
     const T scale = T(1) + wheels[0];
     const T yaw = (T(1) + wheels[2]) * motion.yaw + wheels[1] * motion.x;
-    r = root.cast<T>() * difference(a, b, T(scale * motion.x), T(scale * motion.y), yaw);
+    r = root.cast<T>() * off(a, b, T(scale * motion.x), T(scale * motion.y), yaw);
     return true;
   }
 };
@@ -76,11 +78,6 @@ struct WheelPrior {
 };
 
 Parameters parameters_of(const Pose2& pose) { return {pose.x, pose.y, pose.yaw}; }
-
-Eigen::Vector3d off(const Closure& closure, const Pose2& from, const Pose2& to) {
-  const Pose2 measured = closure.from_T_to, now = between(from, to);
-  return {now.x - measured.x, now.y - measured.y, angle_between(measured.yaw, now.yaw)};
-}
 
 /// Of the inverse motion, in the axes of its start.
 Matrix3d of_inverse(const Pose2& a_T_b, const Matrix3d& covariance) {
@@ -176,7 +173,7 @@ bool PoseGraph::refute() {
   const double limit = options_.refuted_beyond * options_.refuted_beyond;
   for (Closure& c : closures_) {
     if (c.refuted) continue;
-    const Eigen::Vector3d e = off(c, poses_[c.from], poses_[c.to]);
+    const Vector3d e = difference(c.from_T_to, between(poses_[c.from], poses_[c.to]));
     if (e.dot(c.information * e) > limit) c.refuted = any = true;
   }
   return any;

@@ -42,16 +42,12 @@ ScanChain::ScanChain(const Rig& rig, const ScanChainOptions& options)
       walls_(options.recent_m, options.walls) {}
 
 void ScanChain::observe(const OdometryReading& odometry) {
-  track_.add(odometry);
-  const auto pose = track_.at(odometry.stamp);
-  if (pose && (odometry_.empty() || odometry.stamp > odometry_.back().stamp))
-    odometry_.push_back({odometry.stamp, *pose});
+  queue_.observe(odometry);
   take_waiting(false);
 }
 
 void ScanChain::observe(const LaserScan& scan) {
-  ++scans_;
-  if (waiting_scans_.empty() || scan.stamp > waiting_scans_.back().stamp) waiting_scans_.push_back(scan);
+  queue_.observe(scan);
   take_waiting(false);
 }
 
@@ -61,27 +57,21 @@ void ScanChain::observe(const FieldReading& field) {
 }
 
 void ScanChain::take_waiting(bool now) {
-  constexpr double kPatience_s = 3.0;
-  while (!waiting_scans_.empty()) {
-    const LaserScan& scan = waiting_scans_.front();
-    const Stamp end = scan.stamp + sweep_duration_s(scan);
-    const bool too_old = waiting_scans_.back().stamp - scan.stamp > kPatience_s;
-    if (!now && !too_old && !track_.covers(end)) return;
-    const auto track_T_base = track_.at(scan.stamp), track_T_end = track_.at(end);
-    if (track_T_base && is_due(scan.stamp, *track_T_base)) {
-      take_fields(scan.stamp);
-      add(scan, *track_T_base, track_T_end.value_or(*track_T_base));
-    }
-    waiting_scans_.pop_front();
+  while (const std::optional<PlacedScan> placed = queue_.next(now)) {
+    if (!is_due(placed->scan.stamp, placed->track_T_base)) continue;
+    take_fields(placed->scan.stamp);
+    add(*placed);
   }
-  if (!odometry_.empty() && !waiting_fields_.empty() &&
-      odometry_.back().stamp - waiting_fields_.front().stamp > kPatience_s)
+  constexpr double kPatience_s = 3.0;  // where no scan comes
+  if (!odometry().empty() && !waiting_fields_.empty() &&
+      odometry().back().stamp - waiting_fields_.front().stamp > kPatience_s)
     take_fields(waiting_fields_.front().stamp + 0.5 * kPatience_s);
 }
 
 void ScanChain::take_fields(Stamp until) {
   for (; !waiting_fields_.empty() && waiting_fields_.front().stamp <= until; waiting_fields_.pop_front())
-    if (const auto at = track_.at(waiting_fields_.front().stamp)) stations_.add(waiting_fields_.front(), *at);
+    if (const auto at = queue_.track().at(waiting_fields_.front().stamp))
+      stations_.add(waiting_fields_.front(), *at);
 }
 
 bool ScanChain::moved(const Pose2& from, const Pose2& to, double share) const {
@@ -91,7 +81,7 @@ bool ScanChain::moved(const Pose2& from, const Pose2& to, double share) const {
 
 bool ScanChain::is_due(Stamp stamp, const Pose2& track_T_base) const {
   return !at_ || stamp - at_->stamp >= options_.matched_s ||
-         moved(at_->track_T_base, track_T_base, options_.matched_share) || track_.breaks() != breaks_at_last_;
+         moved(at_->track_T_base, track_T_base, options_.matched_share) || breaks() != breaks_at_last_;
 }
 
 WallFit ScanChain::matched(const PointSet& points, const PosePrior& prior) const {
@@ -122,7 +112,7 @@ double ScanChain::longest_silence_s(Stamp stamp) const {
   double longest_s = 0.0;
   if (!at_) return longest_s;
   Stamp later = stamp;
-  for (auto at = odometry_.rbegin(); at != odometry_.rend(); ++at) {
+  for (auto at = odometry().rbegin(); at != odometry().rend(); ++at) {
     if (at->stamp > later) continue;
     longest_s = std::max(longest_s, later - at->stamp);
     if (at->stamp <= at_->stamp) break;
@@ -131,12 +121,13 @@ double ScanChain::longest_silence_s(Stamp stamp) const {
   return longest_s;
 }
 
-void ScanChain::add(const LaserScan& scan, const Pose2& track_T_base, const Pose2& track_T_end) {
-  Keyframe keyframe{.stamp = scan.stamp, .travelled_m = track_.travelled_m(), .track_T_base = track_T_base};
+void ScanChain::add(const PlacedScan& placed) {
+  const auto& [scan, track_T_base, track_T_end] = placed;
+  Keyframe keyframe{.stamp = scan.stamp, .travelled_m = travelled_m(), .track_T_base = track_T_base};
   keyframe.points_base_m =
       chosen(beam_returns(scan, rig_.base_T_laser, between(track_T_base, track_T_end)), options_);
-  const bool broken = track_.breaks() != breaks_at_last_;
-  breaks_at_last_ = track_.breaks();
+  const bool broken = breaks() != breaks_at_last_;
+  breaks_at_last_ = breaks();
   const double silent_s = broken ? options_.break_s : longest_silence_s(scan.stamp);
   broken_since_keyframe_ |= silent_s > options_.silence_s;
   if (at_) place(keyframe, silent_s);

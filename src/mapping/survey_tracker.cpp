@@ -11,15 +11,13 @@
 #include "mstsl/mapping/bent_track.hpp"
 #include "mstsl/scan/points.hpp"
 
+#include "pose_difference.hpp"
+
 namespace mstsl {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Vector3d difference(const Pose2& from, const Pose2& to) {
-  return {to.x - from.x, to.y - from.y, angle_between(from.yaw, to.yaw)};
-}
 
 Pose2 moved(const Pose2& pose, const Vector3d& by) {
   return Pose2::from(pose.position() + by.head<2>(), pose.yaw + by.z());
@@ -35,31 +33,18 @@ SurveyTracker::SurveyTracker(std::shared_ptr<const WallField> walls, const Rig& 
     : walls_(std::move(walls)), rig_(rig), initial_(initial_map_T_base), options_(options) {}
 
 void SurveyTracker::observe(const OdometryReading& odometry) {
-  track_.add(odometry);
-  const auto pose = track_.at(odometry.stamp);
-  if (pose && (odometry_.empty() || odometry.stamp > odometry_.back().stamp))
-    odometry_.push_back({odometry.stamp, *pose});
+  queue_.observe(odometry);
   take_waiting(false);
 }
 
 void SurveyTracker::observe(const LaserScan& scan) {
-  ++scans_seen_;
-  if (waiting_.empty() || scan.stamp > waiting_.back().stamp) waiting_.push_back(scan);
+  queue_.observe(scan);
   take_waiting(false);
 }
 
 void SurveyTracker::take_waiting(bool now) {
-  constexpr double kPatience_s = 3.0;
-  while (!waiting_.empty()) {
-    const LaserScan& scan = waiting_.front();
-    const Stamp end = scan.stamp + sweep_duration_s(scan);
-    const bool too_old = waiting_.back().stamp - scan.stamp > kPatience_s;
-    if (!now && !too_old && !track_.covers(end)) return;
-    const auto track_T_base = track_.at(scan.stamp), track_T_end = track_.at(end);
-    if (track_T_base && due(scan.stamp, *track_T_base))
-      match(scan, *track_T_base, track_T_end.value_or(*track_T_base));
-    waiting_.pop_front();
-  }
+  while (const std::optional<PlacedScan> placed = queue_.next(now))
+    if (due(placed->scan.stamp, placed->track_T_base)) match(*placed);
 }
 
 bool SurveyTracker::due(Stamp stamp, const Pose2& track_T_base) const {
@@ -71,8 +56,9 @@ bool SurveyTracker::due(Stamp stamp, const Pose2& track_T_base) const {
           stamp - last.stamp >= options_.match_every_s);
 }
 
-void SurveyTracker::match(const LaserScan& scan, const Pose2& track_T_base, const Pose2& track_T_end) {
+void SurveyTracker::match(const PlacedScan& placed) {
   if (error_) return;
+  const auto& [scan, track_T_base, track_T_end] = placed;
   const PointSet all = points_in_base(scan, rig_.base_T_laser, between(track_T_base, track_T_end));
   const PointSet points = at_most(thinned(all, options_.spacing_m), options_.max_points);
   if (nodes_.empty())
@@ -96,7 +82,7 @@ void SurveyTracker::start(const PointSet& points, Stamp stamp, const Pose2& trac
   const Matrix3d covariance = (prior.inverse() + fit.information).inverse();
   nodes_.push_back({stamp, track_T_base, fit.map_T_base, fit.map_T_base, prior, covariance,
                     Matrix3d::Identity(), fit.score});
-  breaks_at_last_ = track_.breaks();
+  breaks_at_last_ = queue_.track().breaks();
 }
 
 void SurveyTracker::go_on(const PointSet& points, Stamp stamp, const Pose2& track_T_base) {
@@ -106,8 +92,8 @@ void SurveyTracker::go_on(const PointSet& points, Stamp stamp, const Pose2& trac
   node.by_last = by_pose_before(last.map_T_base, motion);
   node.predicted_covariance = node.by_last * last.covariance * node.by_last.transpose() +
                               in_map(last.map_T_base, options_.odometry.covariance(motion));
-  if (track_.breaks() != breaks_at_last_) node.predicted_covariance += options_.at_start.spread();
-  breaks_at_last_ = track_.breaks();
+  if (queue_.track().breaks() != breaks_at_last_) node.predicted_covariance += options_.at_start.spread();
+  breaks_at_last_ = queue_.track().breaks();
 
   WallFit fit = fit_to_walls(*walls_, points, {node.predicted, node.predicted_covariance}, options_.fit);
   if (!points.empty() && fit.score < options_.search_below) {
@@ -148,7 +134,7 @@ void SurveyTracker::smooth() {
 SurveyTrack SurveyTracker::between_scans() const {
   SurveyTrack track;
   track.scans = nodes_.size();
-  track.way_m = track_.travelled_m();
+  track.way_m = queue_.track().travelled_m();
   for (const Node& node : nodes_) {
     const double variance = node.covariance.topLeftCorner<2, 2>().trace();
     track.mean_score += node.score / static_cast<double>(nodes_.size());
@@ -158,17 +144,17 @@ SurveyTrack SurveyTracker::between_scans() const {
   track.typical_sd_m = std::sqrt(track.typical_sd_m);
   std::vector<TrackKnot> knots;
   for (const Node& node : nodes_) knots.push_back({node.stamp, node.track_T_base, node.map_T_base});
-  track.map_T_base = bent_track(odometry_, knots);
+  track.map_T_base = bent_track(queue_.odometry(), knots);
   return track;
 }
 
 Result<SurveyTrack> SurveyTracker::finish() {
   take_waiting(true);
   if (error_) return *error_;
-  if (odometry_.empty())
+  if (queue_.odometry().empty())
     return Error("there is no odometry to track the survey with; name its topic, or give --pose-topic");
   if (nodes_.empty())
-    return Error(scans_seen_ == 0
+    return Error(queue_.scans_seen() == 0
                      ? "there is no scan to track the survey with; name the scans' topic"
                      : "no scan has a return near a time with odometry; the survey cannot be tracked");
   smooth();

@@ -80,6 +80,14 @@ TEST(MapOccupancy, GoesWithoutOdometryAndSaysSo) {
   EXPECT_GT(count(must(io::read_map(site.path("scans.yaml"))), CellState::kFree), 10'000U);
 }
 
+TEST(MapOccupancy, AsksForNoLoopOnAShortDrive) {
+  const Driven& site = Driven::get();
+  const Printed made =
+      run_app("map occupancy -o " + site.path("short.yaml") + " " + site.path("run_00.mcap"));
+  ASSERT_EQ(made.exit_status, 0) << made.text;
+  EXPECT_FALSE(made.says("no loop was closed")) << "14 m need none: " << made.text;
+}
+
 TEST(MapOccupancy, AsksForWhatItNeeds) {
   const Driven& site = Driven::get();
   EXPECT_EQ(run_app("map occupancy -o x.yaml").exit_status, 2);

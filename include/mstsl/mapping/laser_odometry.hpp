@@ -19,7 +19,7 @@ struct LaserOdometryOptions {
   double search_below = 0.7;
   Surroundings around{.steps = 2, .step_m = 0.15, .corners = true, .turns = 5, .turn_rad = 0.05};
   double recent_m = 8.0;  ///< scans are matched to the walls seen over the last so many metres
-  double max_range_m = 20.0;
+  double max_range_m = 40.0;
   FitOptions fit = {.sigma_m = 0.08, .points_per_error = 1.0, .max_iterations = 12};
 };
 

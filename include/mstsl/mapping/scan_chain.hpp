@@ -11,9 +11,9 @@
 #include "mstsl/core/trajectory.hpp"
 #include "mstsl/localize/joint/station_collector.hpp"
 #include "mstsl/localize/motion_noise.hpp"
-#include "mstsl/localize/odometry_track.hpp"
 #include "mstsl/mapping/keyframe.hpp"
 #include "mstsl/mapping/recent_walls.hpp"
+#include "mstsl/mapping/scan_queue.hpp"
 #include "mstsl/mapping/wheels.hpp"
 #include "mstsl/scan/fit_around.hpp"
 #include "mstsl/scan/scanned_walls.hpp"
@@ -65,7 +65,7 @@ class ScanChain {
   explicit ScanChain(const Rig& rig, const ScanChainOptions& options = {});
 
   void observe(const OdometryReading& odometry);
-  void observe(const OdometryRestart& restart) { track_.restart(restart); }
+  void observe(const OdometryRestart& restart) { queue_.observe(restart); }
   void observe(const LaserScan& scan);
   void observe(const FieldReading& field);
   void finish() { take_waiting(true); }
@@ -79,17 +79,17 @@ class ScanChain {
   /// Every scan that was matched so far, and where on the chain it was taken.
   const std::vector<TimedPose>& matched_scans() const { return matched_scans_; }
   /// track_T_base at each odometry reading so far.
-  const std::vector<TimedPose>& odometry() const { return odometry_; }
-  std::size_t scans() const { return scans_; }
-  std::size_t breaks() const { return track_.breaks(); }
-  double travelled_m() const { return track_.travelled_m(); }
+  const std::vector<TimedPose>& odometry() const { return queue_.odometry(); }
+  std::size_t scans() const { return queue_.scans_seen(); }
+  std::size_t breaks() const { return queue_.track().breaks(); }
+  double travelled_m() const { return queue_.track().travelled_m(); }
 
  private:
   void take_waiting(bool now);
   void take_fields(Stamp until);
   bool moved(const Pose2& from, const Pose2& to, double share) const;
   bool is_due(Stamp stamp, const Pose2& track_T_base) const;
-  void add(const LaserScan& scan, const Pose2& track_T_base, const Pose2& track_T_end);
+  void add(const PlacedScan& placed);
   void place(Keyframe& keyframe, double silent_s) const;
   WallFit matched(const PointSet& points, const PosePrior& prior) const;
   WallFit found_again(const PointSet& points, const Pose2& about, double silent_s) const;
@@ -98,10 +98,8 @@ class ScanChain {
   Rig rig_;
   ScanChainOptions options_;
   WheelCalibration wheels_;
-  OdometryTrack track_;
-  std::vector<TimedPose> odometry_;
+  ScanQueue queue_;
   std::vector<TimedPose> matched_scans_;  ///< chain_T_base
-  std::deque<LaserScan> waiting_scans_;
   std::deque<FieldReading> waiting_fields_;
   joint::StationCollector stations_;
   RecentWalls walls_;
@@ -115,7 +113,6 @@ class ScanChain {
   std::optional<At> last_keyframe_;
   std::vector<Keyframe> made_;
   std::uint64_t breaks_at_last_ = 0;
-  std::size_t scans_ = 0;
 };
 
 }  // namespace mstsl

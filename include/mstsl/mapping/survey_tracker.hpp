@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,7 +12,7 @@
 #include "mstsl/core/sensor_data.hpp"
 #include "mstsl/core/trajectory.hpp"
 #include "mstsl/localize/motion_noise.hpp"
-#include "mstsl/localize/odometry_track.hpp"
+#include "mstsl/mapping/scan_queue.hpp"
 #include "mstsl/scan/fit_around.hpp"
 #include "mstsl/scan/wall_field.hpp"
 
@@ -57,7 +56,7 @@ class SurveyTracker {
                 const SurveyTrackerOptions& options = {});
 
   void observe(const OdometryReading& odometry);
-  void observe(const OdometryRestart& restart) { track_.restart(restart); }
+  void observe(const OdometryRestart& restart) { queue_.observe(restart); }
   void observe(const LaserScan& scan);
 
   /// Errors: no odometry, no scan, a start where no scan fits, a track that was lost on the way (when).
@@ -73,7 +72,7 @@ class SurveyTracker {
     double score = 0.0;
   };
   void take_waiting(bool now);
-  void match(const LaserScan& scan, const Pose2& track_T_base, const Pose2& track_T_end);
+  void match(const PlacedScan& placed);
   bool due(Stamp stamp, const Pose2& track_T_base) const;
   void start(const PointSet& points, Stamp stamp, const Pose2& track_T_base);
   void go_on(const PointSet& points, Stamp stamp, const Pose2& track_T_base);
@@ -85,11 +84,8 @@ class SurveyTracker {
   Rig rig_;
   Pose2 initial_;
   SurveyTrackerOptions options_;
-  OdometryTrack track_;
-  std::vector<TimedPose> odometry_;  ///< track_T_base at each reading
-  std::deque<LaserScan> waiting_;    ///< for odometry to their ends
+  ScanQueue queue_;
   std::vector<Node> nodes_;
-  std::size_t scans_seen_ = 0;
   std::uint64_t breaks_at_last_ = 0;
   double lost_for_m_ = 0.0;
   std::optional<Error> error_;
