@@ -160,9 +160,4 @@ Result<void> write_ways(const MappedDrives& mapped, const std::filesystem::path&
   return {};
 }
 
-void warn_of(const Session& session, const std::vector<std::string>& sentences) {
-  if (session.quiet) return;
-  for (const std::string& sentence : sentences) fmt::print(stderr, "mstsl: warning: {}\n", sentence);
-}
-
 }  // namespace mstsl::app

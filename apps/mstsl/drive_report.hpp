@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "mstsl/core/result.hpp"
 #include "mstsl/magnetic/field_map.hpp"
@@ -21,8 +20,5 @@ viz::Canvas draw_ways(const MappedDrives& mapped, const FieldMap* field, const s
 
 /// Where the robot was, in TUM format: of several drives one file each, NAME_0.tum, NAME_1.tum ...
 Result<void> write_ways(const MappedDrives& mapped, const std::filesystem::path& file);
-
-/// On stderr, a sentence a line.
-void warn_of(const Session& session, const std::vector<std::string>& sentences);
 
 }  // namespace mstsl::app

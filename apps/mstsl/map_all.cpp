@@ -16,6 +16,7 @@
 #include "map_report.hpp"
 #include "progress.hpp"
 #include "survey_reader.hpp"
+#include "warnings.hpp"
 
 namespace mstsl::app {
 namespace {
@@ -89,7 +90,7 @@ Result<Exit> map_all(const Session& session, const WholeMapWish& wish) {
     field = std::move(made).value();
     for (const std::string& warning : field->analysis.warnings) mapped->warnings.push_back(warning);
   }
-  warn_of(session, mapped->warnings);
+  warn(session, mapped->warnings);
   if (const auto written = write_all(wish, *mapped, field); !written) return written.error();
   if (session.json) {
     fmt::print("{}\n", drive_report_json(*mapped));

@@ -20,6 +20,7 @@
 #include "output_paths.hpp"
 #include "progress.hpp"
 #include "survey_reader.hpp"
+#include "warnings.hpp"
 
 namespace mstsl::app {
 namespace {
@@ -84,11 +85,6 @@ Result<std::vector<CheckedLog>> check(const Session& session, const MagneticMapW
     checked.push_back({log.filename().string(), check_field_map(field, drive->fingerprints)});
   }
   return checked;
-}
-
-void warn(const Session& session, const std::vector<std::string>& sentences) {
-  if (session.quiet) return;
-  for (const std::string& sentence : sentences) fmt::print(stderr, "mstsl: warning: {}\n", sentence);
 }
 
 Result<FieldMap> build(const Session& session, const SurveyAnalysis& analysis, const OccupancyGrid& area,

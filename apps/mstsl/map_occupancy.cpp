@@ -7,6 +7,7 @@
 
 #include "drive_report.hpp"
 #include "output_paths.hpp"
+#include "warnings.hpp"
 
 namespace mstsl::app {
 
@@ -17,7 +18,7 @@ Result<Exit> map_occupancy(const Session& session, const OccupancyMapWish& wish)
   if (auto error = overwritten_input(outputs, wish.drives.logs)) return *std::move(error);
   const Result<MappedDrives> mapped = map_drives(session, wish.drives);
   if (!mapped) return mapped.error();
-  warn_of(session, mapped->warnings);
+  warn(session, mapped->warnings);
   if (const auto written = io::write_map(mapped->grid, wish.output); !written) return written.error();
   if (wish.tum)
     if (const auto written = write_ways(*mapped, *wish.tum); !written) return written.error();
