@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "mstsl/io/recording_info.hpp"
-#include "mstsl/localize/methods.hpp"
+#include "mstsl/localize/localization_maps.hpp"
 #include "mstsl/magnetic/field_map_builder.hpp"
 #include "mstsl/mapping/track_drawer.hpp"
 
-#include "interrupt.hpp"
-#include "progress.hpp"
+#include "find_start.hpp"
+#include "log_player.hpp"
 #include "survey_reader.hpp"
 
 namespace mstsl::app {
@@ -45,32 +45,6 @@ bool all_hold(const Logs& logs, Reading kind, const std::string& topic) {
     return std::any_of(info->topics.begin(), info->topics.end(),
                        [&](const io::TopicInfo& t) { return t.name == topic && t.messages > 0; });
   });
-}
-
-template <typename Consumer>
-void hand_over(Consumer& consumer, const SensorEvent& event) {
-  std::visit(
-      [&](const auto& reading) {
-        if constexpr (requires { consumer.observe(reading); }) consumer.observe(reading);
-      },
-      event);
-}
-
-/// io::play with a bar; an interrupt is an error.
-Result<io::PlayReport> play_drive(const Session& session, const Logs& logs, const io::PlayOptions& play,
-                                  const std::string& what,
-                                  const std::function<void(const io::RecordingHeader&)>& on_header,
-                                  const std::function<bool(const SensorEvent&)>& on_event) {
-  Progress progress(what, session.quiet);
-  const auto begin = io::describe_recording(logs.front()), end = io::describe_recording(logs.back());
-  const bool known = begin && end && begin->first && end->last;
-  const double seconds = known ? std::max(*end->last - *begin->first, 1e-3) : 1.0;
-  auto played = io::play(logs, play, on_header, [&](const SensorEvent& event) {
-    if (known) progress.show((stamp_of(event) - *begin->first) / seconds);
-    return on_event(event) && !interrupted();
-  });
-  if (played && interrupted()) return Error("interrupted; nothing was written");
-  return played;
 }
 
 /// What of a map is to be doubted, a sentence each.
@@ -148,7 +122,7 @@ class DriveMapper {
       anchor = *found;
     }
     bool begun = false;
-    const auto played = play_drive(
+    const auto played = play_logs(
         session_, drives_[k], play_, step("finding the way", k),
         [&](const io::RecordingHeader& header) { slam_.begin_drive(header.rig, anchor), begun = true; },
         [&](const SensorEvent& event) { return hand_over(slam_, event), true; });
@@ -171,7 +145,7 @@ class DriveMapper {
     TrackDrawer drawer(options);
     for (std::size_t k = 0; k < drives; ++k) {
       if (truth != nullptr) truth->emplace_back();
-      const auto played = play_drive(
+      const auto played = play_logs(
           session_, drives_[k], play, step("drawing", k),
           [&](const io::RecordingHeader& header) {
             drawer.begin_drive(header.rig, track_->drives[k].map_T_base);
@@ -208,26 +182,14 @@ class DriveMapper {
     auto maps = make_localization_maps(std::move(grid).value(), std::move(field).value(),
                                        {.threads = session_.threads});
     if (!maps) return maps.error().within(name_of(logs));
-    auto joint = make_method("joint", *maps, {.threads = session_.threads});
-    if (!joint) return joint.error();
-    std::optional<AnyLocalizer> localizer;
-    std::optional<Anchor> anchor;
-    const auto played = play_drive(
-        session_, drives_[k], play_, step("finding the start", k),
-        [&](const io::RecordingHeader& header) { localizer.emplace((*joint)(header.rig)); },
-        [&](const SensorEvent& event) {
-          feed(*localizer, event);
-          const Estimate estimate = localizer->estimate();
-          if (estimate.map_T_base) anchor = {estimate.stamp, *estimate.map_T_base, estimate.covariance};
-          return !anchor.has_value();
-        });
-    if (!played) return played.error();
-    if (!anchor)
+    const auto found = find_start(session_, drives_[k], play_, *maps, step("finding the start", k));
+    if (!found) return found.error();
+    if (!*found)
       return Error(
           fmt::format("{}: the drive could not be found in the map of those before it; does it go where they "
                       "went? Give --continuous if it begins where the last one ended",
                       name_of(drives_[k])));
-    return *anchor;
+    return (*found)->anchor;
   }
 
   const Session& session_;

@@ -13,6 +13,7 @@
 #include "mstsl/io/truth.hpp"
 
 #include "info.hpp"
+#include "report_words.hpp"
 
 namespace mstsl::app {
 namespace {
@@ -104,6 +105,7 @@ Result<Description> describe_field(const std::filesystem::path& file) {
   description["fingerprints"] = field->fingerprints.size();
   description["hyperparameters"] = field->hyperparameters;
   description["field_of_supported_cells"] = field_statistics(*field);
+  description["drives"] = drives_json(*field);
   description["provenance"] = field->provenance;
   return description;
 }

@@ -4,6 +4,7 @@
 #include "map_ambiguity.hpp"
 #include "map_magnetic.hpp"
 #include "map_occupancy.hpp"
+#include "map_update.hpp"
 #include "session.hpp"
 #include "topic_options.hpp"
 
@@ -125,6 +126,33 @@ void add_map_all(CLI::App& map, Session& session) {
       [wish, &session] { session.work = [wish, &session] { return map_all(session, *wish); }; });
 }
 
+void add_map_update(CLI::App& map, Session& session) {
+  auto wish = std::make_shared<UpdateWish>();
+  CLI::App* command = map.add_subcommand(
+      "update",
+      "Bring a field map up to date with newer drives: where the building changed, they replace what was "
+      "measured; elsewhere both count");
+  command->add_option("--map", wish->map, "Occupancy map: a map_server yaml")->required();
+  command->add_option("--field", wish->field, "Field map to be brought up to date, NetCDF")->required();
+  command->add_option("-o,--output", wish->output,
+                      "The new field map; may be the old one's name. Without it changes are only reported");
+  command->add_option("--picture", wish->picture, "Also a picture of it, PNG or SVG")->needs("--output");
+  auto* poses = command->add_option_group(
+      "poses", "Where the robot was; without either the joint method finds it on the maps");
+  poses->add_option("--pose-topic", wish->play.topics.pose, "Topic with the robot's poses in the map");
+  poses->add_option("--initial-pose", wish->initial_pose, "X,Y,YAW (m, rad) at the start of each log");
+  poses->require_option(0, 1);
+  add_calibration_option(*command, wish->calibration);
+  add_topic_options(*command, wish->play);
+  command
+      ->add_option("logs", wish->logs,
+                   "MCAP, rosbag2 folder or ROS 1 bag of about one time; for a later day run it again")
+      ->required();
+  add_common_options(*command, session);
+  command->callback(
+      [wish, &session] { session.work = [wish, &session] { return map_update(session, *wish); }; });
+}
+
 void add_map_ambiguity(CLI::App& map, Session& session) {
   auto wish = std::make_shared<AmbiguityWish>();
   CLI::App* command = map.add_subcommand(
@@ -156,6 +184,7 @@ void add_map(CLI::App& app, Session& session) {
   add_map_magnetic(*map, session);
   add_map_occupancy(*map, session);
   add_map_all(*map, session);
+  add_map_update(*map, session);
   add_map_ambiguity(*map, session);
 }
 

@@ -39,6 +39,7 @@ Result<MappedField> map_field(const Session& session, const WholeMapWish& wish, 
   if (!survey) return survey.error();
   FieldMapOptions options;
   options.threads = options.analysis.threads = session.threads;
+  options.drives = survey->drives;
   const std::string where =
       wish.drives.logs.front().string() + (wish.drives.logs.size() > 1 ? " and others" : "");
   auto analysis = analyse_survey(survey->fingerprints, options.model, options.analysis);

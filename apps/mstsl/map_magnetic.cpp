@@ -64,22 +64,23 @@ std::optional<Error> checked_by_itself(const MagneticMapWish& wish) {
   return std::nullopt;
 }
 
-/// Without poses in the logs, where they begin.
-Result<std::optional<KnownStart>> known_start(const MagneticMapWish& wish, const OccupancyGrid& occupancy) {
-  if (wish.initial_pose.empty()) return std::optional<KnownStart>();
+/// Without poses in the logs, where each of them begins.
+Result<std::vector<KnownStart>> known_starts(const MagneticMapWish& wish, const OccupancyGrid& occupancy) {
+  if (wish.initial_pose.empty()) return std::vector<KnownStart>();
   const Result<Pose2> pose = pose_from(wish.initial_pose);
   if (!pose) return pose.error().within("--initial-pose");
   if (count(occupancy, CellState::kOccupied) == 0)
     return Error(wish.map.string() + ": the map has no wall to track the survey by");
-  return std::optional(KnownStart{std::make_shared<const WallField>(occupancy), *pose});
+  return std::vector(wish.logs.size(), KnownStart{std::make_shared<const WallField>(occupancy), *pose});
 }
 
 /// Each log of its own: a drive on another day has another bias, and one bad drive should be seen as such.
 Result<std::vector<CheckedLog>> check(const Session& session, const MagneticMapWish& wish,
-                                      const io::PlayOptions& play, const std::optional<KnownStart>& start,
+                                      const io::PlayOptions& play, const std::vector<KnownStart>& starts,
                                       const FieldMap& field) {
   std::vector<CheckedLog> checked;
   for (const fs::path& log : wish.checks) {
+    const std::vector<KnownStart> start(starts.begin(), starts.begin() + (starts.empty() ? 0 : 1));
     const Result<SurveyLogs> drive = read_survey(session, {log}, play, start);
     if (!drive) return drive.error();
     checked.push_back({log.filename().string(), check_field_map(field, drive->fingerprints)});
@@ -112,14 +113,15 @@ Result<Exit> map_magnetic(const Session& session, const MagneticMapWish& wish) {
   if (!calibration) return calibration.error();
   io::PlayOptions play = wish.play;
   play.calibration = *calibration;
-  const Result<std::optional<KnownStart>> start = known_start(wish, occupancy->grid);
-  if (!start) return start.error();
-  const Result<SurveyLogs> logs = read_survey(session, wish.logs, play, *start);
+  const Result<std::vector<KnownStart>> starts = known_starts(wish, occupancy->grid);
+  if (!starts) return starts.error();
+  const Result<SurveyLogs> logs = read_survey(session, wish.logs, play, *starts);
   if (!logs) return logs.error();
   warn(session, logs->warnings);
   const std::string survey = fmt::format("the survey in {}{}", wish.logs.front().string(),
                                          wish.logs.size() > 1 ? " and others" : "");
-  const FieldMapOptions options = options_of(session, wish);
+  FieldMapOptions options = options_of(session, wish);
+  options.drives = logs->drives;
   const auto analysis = analyse_survey(logs->fingerprints, options.model, options.analysis);
   if (!analysis) return analysis.error().within(survey);
   warn(session, analysis->warnings);
@@ -128,7 +130,7 @@ Result<Exit> map_magnetic(const Session& session, const MagneticMapWish& wish) {
   if (interrupted()) return Error("interrupted; nothing was written");
   field->height_m = logs->magnetometer_height_m;
   field->provenance = provenance(wish);
-  const auto checked = check(session, wish, play, *start, *field);
+  const auto checked = check(session, wish, play, *starts, *field);
   if (!checked) return checked.error();
   if (const auto written = io::write_field_map(*field, wish.output); !written) return written.error();
   if (wish.picture) {

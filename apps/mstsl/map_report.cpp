@@ -8,14 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report_words.hpp"
+
 namespace mstsl::app {
 namespace {
-
-std::string three(const Eigen::Array3d& v, const char* unit) {
-  return fmt::format("{:.2f} {:.2f} {:.2f}{}", v(0), v(1), v(2), unit);
-}
-
-std::array<double, 3> list(const Eigen::Array3d& v) { return {v(0), v(1), v(2)}; }
 
 /// What became of the field readings, for those that were not used.
 std::array<std::pair<const char*, std::uint64_t>, 6> dropped(const CollectionReport& r) {
@@ -189,6 +185,8 @@ std::string map_report_text(const SurveyLogs& logs, const SurveyAnalysis& analys
   for (const CheckedLog& log : checks) text += check_text(log);
   text += fmt::format("{} x {} cells of {} m, {} with a value, {} near a fingerprint\n", map.geometry.columns,
                       map.geometry.rows, map.geometry.resolution_m, cells.valued, cells.supported);
+  text += coverage_text(map);
+  text += drives_text(map);
   return text;
 }
 
@@ -218,6 +216,8 @@ std::string map_report_json(const SurveyLogs& logs, const SurveyAnalysis& analys
                    {"resolution_m", map.geometry.resolution_m},
                    {"with_value", cells.valued},
                    {"supported", cells.supported}};
+  json["coverage"] = coverage_json(map);
+  json["drives"] = drives_json(map);
   json["warnings"] = analysis.warnings;
   return json.dump() + "\n";
 }

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <variant>
 
 #include <fmt/format.h>
 
 #include "interrupt.hpp"
+#include "log_player.hpp"
 
 namespace mstsl::app {
 
@@ -37,11 +37,7 @@ Result<SurveyTrack> track_survey(const std::filesystem::path& log, const io::Pla
       {log}, wanted,
       [&](const io::RecordingHeader& header) { tracker.emplace(start.walls, header.rig, start.map_T_base); },
       [&](const SensorEvent& event) {
-        std::visit(
-            [&](const auto& reading) {
-              if constexpr (requires { tracker->observe(reading); }) tracker->observe(reading);
-            },
-            event);
+        if (!start.stamp || stamp_of(event) >= *start.stamp) hand_over(*tracker, event);
         at(stamp_of(event));
         return !interrupted();
       });

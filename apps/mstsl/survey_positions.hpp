@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "mstsl/core/pose2.hpp"
@@ -16,6 +17,7 @@ namespace mstsl::app {
 struct KnownStart {
   std::shared_ptr<const WallField> walls;
   Pose2 map_T_base;
+  std::optional<Stamp> stamp = {};  ///< when it was there; what the log holds of before is left out
 };
 
 /// X,Y,YAW in m and rad.

@@ -82,6 +82,9 @@ Result<SurveyLogs> collect_fingerprints(const Session& session,
     if (!played) return played.error();
     if (interrupted()) return Error("interrupted; nothing was written");
     if (collecting) collecting->end();
+    const double length_s = span ? span->second : 0.0;
+    survey.drives.push_back(
+        {logs[k].filename().string(), span ? span->first : Stamp{}, span ? span->first + length_s : Stamp{}});
     for (const auto& [what, count] : played->problems) survey.problems[what] += count;
     for (const std::string& warning : played->warnings) survey.warnings.push_back(warning);
   }
@@ -92,15 +95,15 @@ Result<SurveyLogs> collect_fingerprints(const Session& session,
 }
 
 Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::filesystem::path>& logs,
-                               const io::PlayOptions& play, const std::optional<KnownStart>& start) {
-  if (!start) return collect_fingerprints(session, logs, play);
+                               const io::PlayOptions& play, const std::vector<KnownStart>& starts) {
+  if (starts.empty()) return collect_fingerprints(session, logs, play);
   std::vector<SurveyTrack> tracks;
   std::vector<Trajectory> trajectories;
   {
     Progress progress("tracking", session.quiet);
     for (std::size_t k = 0; k < logs.size(); ++k) {
       const auto span = extent(logs[k]);
-      Result<SurveyTrack> track = track_survey(logs[k], play, *start, [&](Stamp at) {
+      Result<SurveyTrack> track = track_survey(logs[k], play, starts[k], [&](Stamp at) {
         const double share = span ? std::clamp((at - span->first) / span->second, 0.0, 1.0) : 0.5;
         progress.show((static_cast<double>(k) + share) / static_cast<double>(logs.size()));
       });

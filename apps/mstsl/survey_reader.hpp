@@ -23,6 +23,7 @@ struct SurveyLogs {
   std::vector<std::string> warnings;
   double magnetometer_height_m = 0.0;
   std::vector<SurveyTrack> tracks;  ///< of the logs, where they had to be tracked
+  std::vector<SurveyDrive> drives;  ///< by Fingerprint::session
 };
 
 /// Plays the logs, one session each, and collects their fingerprints at the places that the robot was at on
@@ -33,9 +34,9 @@ Result<SurveyLogs> collect_fingerprints(const Session& session,
                                         const io::PlayOptions& play,
                                         const std::vector<Trajectory>& map_T_base = {});
 
-/// Plays the logs, one session each, and collects their fingerprints; with a start, where they lie is found
-/// by tracking the robot from there. Errors: a log that cannot be read or tracked, an interrupt.
+/// Plays the logs, one session each, and collects their fingerprints; with starts, one a log, where they lie
+/// is found by tracking the robot from there. Errors: a log that cannot be read or tracked, an interrupt.
 Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::filesystem::path>& logs,
-                               const io::PlayOptions& play, const std::optional<KnownStart>& start = {});
+                               const io::PlayOptions& play, const std::vector<KnownStart>& starts = {});
 
 }  // namespace mstsl::app

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "file_problem.hpp"
 
@@ -39,6 +41,30 @@ void check_hyperparameter(const std::string& name, double value) {
   if (!std::isfinite(value)) throw FileProblem("the hyper-parameter '{}' is {}", name, value);
 }
 
+void check_fingerprint(const FieldMap& map, const Fingerprint& f, std::size_t i) {
+  if (!f.position_m.allFinite() || !f.field_uT.allFinite() || !std::isfinite(f.heading_rad))
+    throw FileProblem("fingerprint {} is not finite", i);
+  if (!map.drives.empty() && !(f.session >= 0 && std::cmp_less(f.session, map.drives.size())))
+    throw FileProblem("fingerprint {} is of drive {}, but there are {}", i, f.session, map.drives.size());
+}
+
+void check_drives(const FieldMap& map) {
+  const auto is_drive = [&](int i) { return i >= 0 && std::cmp_less(i, map.drives.size()); };
+  for (const SurveyDrive& drive : map.drives)
+    if (drive.first > drive.last) throw FileProblem("the drive '{}' ends before it begins", drive.name);
+  if (!map.newest_drive.empty() && map.newest_drive.size() != map.geometry.size())
+    throw FileProblem("'newest_drive' does not fit the map's cells");
+  for (const std::int32_t newest : map.newest_drive)
+    if (newest != -1 && !is_drive(newest))
+      throw FileProblem("'newest_drive' is {}, but there are {} drives", newest, map.drives.size());
+  for (std::size_t i = 0; i < map.replaced.size(); ++i) {
+    check_fingerprint(map, map.replaced[i].fingerprint, i);
+    if (!is_drive(map.replaced[i].by_session))
+      throw FileProblem("replaced fingerprint {} gives drive {} as the cause, but there are {}", i,
+                        map.replaced[i].by_session, map.drives.size());
+  }
+}
+
 }  // namespace
 
 void check_geometry(const GridGeometry& geometry) {
@@ -62,9 +88,8 @@ void check_field_map(const FieldMap& map) {
     throw FileProblem("the field map's arrays do not fit its {} x {} cells", map.geometry.columns,
                       map.geometry.rows);
   for (std::size_t i = 0; i < cells; ++i) check_cell(map, i);
-  for (std::size_t i = 0; i < map.fingerprints.size(); ++i)
-    if (!map.fingerprints[i].position_m.allFinite() || !map.fingerprints[i].field_uT.allFinite())
-      throw FileProblem("fingerprint {} is not finite", i);
+  for (std::size_t i = 0; i < map.fingerprints.size(); ++i) check_fingerprint(map, map.fingerprints[i], i);
+  check_drives(map);
   for (const auto& [name, value] : map.hyperparameters) check_hyperparameter(name, value);
   if (!std::isfinite(map.height_m)) throw FileProblem("the height of the magnetometer is {}", map.height_m);
 }

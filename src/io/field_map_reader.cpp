@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mstsl/core/angles.hpp"
@@ -17,6 +20,16 @@ namespace {
 
 constexpr std::size_t kMaxFileBytes = std::size_t{4} << 30;
 constexpr std::size_t kMaxFingerprints = 100'000'000;
+
+std::vector<std::int32_t> small_integers(const NetcdfReader& file, const std::string& name,
+                                         const std::vector<const char*>& dimensions) {
+  std::vector<std::int32_t> values;
+  for (const std::int64_t value : file.integers(name.c_str(), dimensions)) {
+    if (!std::in_range<std::int32_t>(value)) throw FileProblem("'{}' holds {}", name, value);
+    values.push_back(static_cast<std::int32_t>(value));
+  }
+  return values;
+}
 
 void check_axis(const std::vector<double>& found_m, const std::vector<double>& expected_m,
                 double resolution_m, const char* name) {
@@ -62,21 +75,41 @@ void read_grid(const NetcdfReader& file, FieldMap& map) {
   map.supported = file.bytes("supported", {"y", "x"});
 }
 
-std::vector<Fingerprint> read_fingerprints(const NetcdfReader& file) {
-  const std::size_t count = file.dimension("fingerprint").value_or(0);
+std::vector<Fingerprint> read_fingerprints(const NetcdfReader& file, const FingerprintTable& table,
+                                           bool with_drives) {
+  const std::size_t count = file.dimension(table.dimension).value_or(0);
   if (count == 0) return {};
   if (count > kMaxFingerprints) throw FileProblem("it claims {} fingerprints", count);
   std::vector<Fingerprint> fingerprints(count);
-  const auto read = [&](const char* name, const char* unit, const auto& put) {
-    const std::vector<double> values = file.doubles(name, {"fingerprint"}, unit);
+  const auto read = [&](const std::string& name, const char* unit, const auto& put) {
+    const std::vector<double> values = file.doubles((table.prefix + name).c_str(), {table.dimension}, unit);
     for (std::size_t i = 0; i < count; ++i) put(fingerprints[i], values[i]);
   };
-  read("fp_x", "m", [](Fingerprint& f, double v) { f.position_m.x() = v; });
-  read("fp_y", "m", [](Fingerprint& f, double v) { f.position_m.y() = v; });
+  read("x", "m", [](Fingerprint& f, double v) { f.position_m.x() = v; });
+  read("y", "m", [](Fingerprint& f, double v) { f.position_m.y() = v; });
   for (std::size_t k = 0; k < kFieldComponents.size(); ++k)
-    read(kFieldComponents[k].fingerprint, "uT",
+    read(kFieldComponents[k].mean, "uT",
          [k](Fingerprint& f, double v) { f.field_uT[static_cast<Eigen::Index>(k)] = v; });
+  if (!with_drives) return fingerprints;
+  read("heading", "rad", [](Fingerprint& f, double v) { f.heading_rad = v; });
+  const auto drives = small_integers(file, std::string(table.prefix) + kDrive, {table.dimension});
+  for (std::size_t i = 0; i < count; ++i) fingerprints[i].session = drives[i];
   return fingerprints;
+}
+
+void read_drives(const NetcdfReader& file, FieldMap& map) {
+  const std::vector<std::string> names = file.texts(kDriveNames);
+  const auto begins = file.integers("drive_begin", {kDrive}), ends = file.integers("drive_end", {kDrive});
+  if (names.size() != begins.size())
+    throw FileProblem("the attribute '{}' names {} drives, but the file has {}", kDriveNames, names.size(),
+                      begins.size());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    map.drives.push_back({names[i], Stamp{begins[i]}, Stamp{ends[i]}});
+  if (file.has_variable("newest_drive")) map.newest_drive = small_integers(file, "newest_drive", {"y", "x"});
+  const std::vector<Fingerprint> replaced = read_fingerprints(file, kReplaced, true);
+  if (replaced.empty()) return;
+  const auto by = small_integers(file, "replaced_fp_by_drive", {kReplaced.dimension});
+  for (std::size_t i = 0; i < replaced.size(); ++i) map.replaced.push_back({replaced[i], by[i]});
 }
 
 FieldModel read_model(const NetcdfReader& file) {
@@ -100,7 +133,10 @@ Result<FieldMap> decode_field_map(std::string_view bytes, const std::filesystem:
     map.hyperparameters = file.numbers(kHyperparameter);
     map.provenance = file.texts("provenance");
     read_grid(file, map);
-    map.fingerprints = read_fingerprints(file);
+    // Maps of before there were updates do not say which drive a fingerprint is of.
+    const bool with_drives = file.dimension(kDrive).has_value();
+    map.fingerprints = read_fingerprints(file, kCurrent, with_drives);
+    if (with_drives) read_drives(file, map);
     check_field_map(map);
     return map;
   });

@@ -61,24 +61,62 @@ void write_grid(NetcdfWriter& file, const FieldMap& map) {
                  std::string_view("whether a fingerprint lies within the model's reach"));
   file.attribute(supported, "flag_values", std::vector<std::uint8_t>{0, 1});
   file.attribute(supported, "flag_meanings", std::string_view("unsupported supported"));
+  if (map.newest_drive.empty()) return;
+  const int newest = file.variable("newest_drive", {y, x}, map.newest_drive);
+  file.attribute(newest, "long_name",
+                 std::string_view("index of the last drive that came near, -1 where none did"));
 }
 
-void write_fingerprints(NetcdfWriter& file, const std::vector<Fingerprint>& fingerprints) {
-  if (fingerprints.empty()) return;
-  const int dimension = file.dimension("fingerprint", fingerprints.size());
-  const auto write = [&](const char* name, const char* unit, const std::string& long_name,
+/// Returns the dimension that the fingerprints are written over; expects some.
+int write_fingerprints(NetcdfWriter& file, const std::vector<Fingerprint>& fingerprints,
+                       const FingerprintTable& table, bool with_drives) {
+  const int dimension = file.dimension(table.dimension, fingerprints.size());
+  const auto write = [&](const std::string& name, const char* unit, const std::string& long_name,
                          const std::function<double(const Fingerprint&)>& value) {
-    describe(file, file.variable(name, {dimension}, column<double, Fingerprint>(fingerprints, value)), unit,
-             long_name);
+    const std::vector<double> values = column<double, Fingerprint>(fingerprints, value);
+    describe(file, file.variable((table.prefix + name).c_str(), {dimension}, values), unit, long_name);
   };
-  write("fp_x", "m", "x of the fingerprint in the map frame",
+  write("x", "m", "x of the fingerprint in the map frame",
         [](const Fingerprint& f) { return f.position_m.x(); });
-  write("fp_y", "m", "y of the fingerprint in the map frame",
+  write("y", "m", "y of the fingerprint in the map frame",
         [](const Fingerprint& f) { return f.position_m.y(); });
   for (std::size_t k = 0; k < kFieldComponents.size(); ++k)
-    write(kFieldComponents[k].fingerprint, "uT",
+    write(kFieldComponents[k].mean, "uT",
           fmt::format("measured magnetic flux density {}", kFieldComponents[k].direction),
           [k](const Fingerprint& f) { return f.field_uT[static_cast<Eigen::Index>(k)]; });
+  if (!with_drives) return dimension;
+  write("heading", "rad", "yaw of the robot in the map frame",
+        [](const Fingerprint& f) { return f.heading_rad; });
+  const auto drive = [](const Fingerprint& f) { return static_cast<std::int32_t>(f.session); };
+  const int variable = file.variable((std::string(table.prefix) + kDrive).c_str(), {dimension},
+                                     column<std::int32_t, Fingerprint>(fingerprints, drive));
+  file.attribute(variable, "long_name", std::string_view("index of the drive it comes from"));
+  return dimension;
+}
+
+/// The drives of the survey and of later updates, and what each of them has to do with the map.
+void write_drives(NetcdfWriter& file, const FieldMap& map) {
+  if (map.drives.empty()) return;
+  const int drive = file.dimension(kDrive, map.drives.size());
+  const auto write = [&](const char* name, const char* long_name, Stamp SurveyDrive::*stamp) {
+    const int variable = file.variable(
+        name, {drive}, column<std::int64_t, SurveyDrive>(map.drives, [stamp](const SurveyDrive& d) {
+          return (d.*stamp).ns;
+        }));
+    describe(file, variable, kStampUnit, long_name);
+  };
+  write("drive_begin", "time of the drive's first message, by its log's clock", &SurveyDrive::first);
+  write("drive_end", "time of the drive's last message, by its log's clock", &SurveyDrive::last);
+  if (map.replaced.empty()) return;
+  std::vector<Fingerprint> fingerprints;
+  for (const ReplacedFingerprint& r : map.replaced) fingerprints.push_back(r.fingerprint);
+  const int dimension = write_fingerprints(file, fingerprints, kReplaced, true);
+  const int by =
+      file.variable("replaced_fp_by_drive", {dimension},
+                    column<std::int32_t, ReplacedFingerprint>(map.replaced, [](const ReplacedFingerprint& r) {
+                      return static_cast<std::int32_t>(r.by_session);
+                    }));
+  file.attribute(by, "long_name", std::string_view("index of the drive that found another field there"));
 }
 
 void write_attributes(NetcdfWriter& file, const FieldMap& map) {
@@ -95,6 +133,9 @@ void write_attributes(NetcdfWriter& file, const FieldMap& map) {
   global("grid_yaw_rad", map.geometry.map_T_grid.yaw);
   global("height_m", map.height_m);
   for (const auto& [name, value] : map.hyperparameters) global(std::string(kHyperparameter) + name, value);
+  if (!map.drives.empty())
+    global(kDriveNames,
+           column<std::string, SurveyDrive>(map.drives, [](const SurveyDrive& d) { return d.name; }));
   if (map.provenance.empty()) return;
   global("provenance", map.provenance);
   global("history", fmt::format("{}", fmt::join(map.provenance, "\n")));
@@ -116,7 +157,8 @@ Result<std::string> encode_field_map(const FieldMap& map, const std::filesystem:
     NetcdfWriter file;
     write_attributes(file, map);
     write_grid(file, map);
-    write_fingerprints(file, map.fingerprints);
+    if (!map.fingerprints.empty()) write_fingerprints(file, map.fingerprints, kCurrent, !map.drives.empty());
+    write_drives(file, map);
     return sealed(file.finish());
   });
 }

@@ -48,6 +48,8 @@ class NetcdfWriter {
   int variable(const char* name, const std::vector<int>& dimensions, const std::vector<float>& values);
   int variable(const char* name, const std::vector<int>& dimensions, const std::vector<double>& values);
   int variable(const char* name, const std::vector<int>& dimensions, const std::vector<std::uint8_t>& values);
+  int variable(const char* name, const std::vector<int>& dimensions, const std::vector<std::int32_t>& values);
+  int variable(const char* name, const std::vector<int>& dimensions, const std::vector<std::int64_t>& values);
 
   void attribute(int variable, const char* name, std::string_view text);
   void attribute(int variable, const char* name, double value);
@@ -80,6 +82,8 @@ class NetcdfReader {
   std::vector<double> doubles(const char* name, const std::vector<const char*>& dimensions,
                               std::string_view unit) const;
   std::vector<std::uint8_t> bytes(const char* name, const std::vector<const char*>& dimensions) const;
+  std::vector<std::int64_t> integers(const char* name, const std::vector<const char*>& dimensions) const;
+  bool has_variable(const char* name) const;
 
   /// Global attributes.
   std::string text(const char* name) const;
@@ -89,11 +93,13 @@ class NetcdfReader {
   std::map<std::string, double> numbers(std::string_view prefix) const;
 
  private:
+  enum class Kind { kReal, kByte, kInteger };
   struct Variable {
     int id;
     std::size_t length;
   };
-  Variable find(const char* name, const std::vector<const char*>& dimensions, bool integer) const;
+  static bool is_of(Kind kind, int type);
+  Variable find(const char* name, const std::vector<const char*>& dimensions, Kind kind) const;
   void expect_unit(const char* name, int variable, std::string_view unit) const;
   std::vector<std::string> texts(int variable, const char* name) const;
 

@@ -21,9 +21,6 @@ void check(int status, std::string_view what) {
   throw FileProblem("the NetCDF file is damaged: {} cannot be read ({})", what, nc_strerror(status));
 }
 
-bool is_integer_byte(nc_type type) { return type == NC_BYTE || type == NC_UBYTE; }
-bool is_real(nc_type type) { return type == NC_FLOAT || type == NC_DOUBLE; }
-
 }  // namespace
 
 NetcdfReader::NetcdfReader(std::string_view bytes) {
@@ -45,8 +42,21 @@ std::optional<std::size_t> NetcdfReader::dimension(const char* name) const {
   return length;
 }
 
+bool NetcdfReader::is_of(Kind kind, int type) {
+  const bool is_byte = type == NC_BYTE || type == NC_UBYTE;
+  switch (kind) {
+    case Kind::kReal:
+      return type == NC_FLOAT || type == NC_DOUBLE;
+    case Kind::kByte:
+      return is_byte;
+    case Kind::kInteger:
+      return is_byte || type == NC_SHORT || type == NC_INT || type == NC_INT64;
+  }
+  return false;
+}
+
 NetcdfReader::Variable NetcdfReader::find(const char* name, const std::vector<const char*>& dimensions,
-                                          bool integer) const {
+                                          Kind kind) const {
   int variable = -1;
   if (nc_inq_varid(id_, name, &variable) != NC_NOERR)
     throw FileProblem("the variable '{}' is missing; is this a field map made by `mstsl map magnetic`?",
@@ -55,8 +65,11 @@ NetcdfReader::Variable NetcdfReader::find(const char* name, const std::vector<co
   int rank = 0;
   std::array<int, NC_MAX_VAR_DIMS> ids{};
   check(nc_inq_var(id_, variable, nullptr, &type, &rank, ids.data(), nullptr), name);
-  if (integer ? !is_integer_byte(type) : !is_real(type))
-    throw FileProblem("the variable '{}' is not of type {}", name, integer ? "byte" : "float or double");
+  if (!is_of(kind, type))
+    throw FileProblem("the variable '{}' is not of type {}", name,
+                      kind == Kind::kReal   ? "float or double"
+                      : kind == Kind::kByte ? "byte"
+                                            : "integer");
   bool fits = rank == static_cast<int>(dimensions.size());
   std::size_t length = 1;
   for (std::size_t i = 0; fits && i < dimensions.size(); ++i) {
@@ -79,7 +92,7 @@ void NetcdfReader::expect_unit(const char* name, int variable, std::string_view 
 
 std::vector<float> NetcdfReader::floats(const char* name, const std::vector<const char*>& dimensions,
                                         std::string_view unit) const {
-  const Variable variable = find(name, dimensions, false);
+  const Variable variable = find(name, dimensions, Kind::kReal);
   expect_unit(name, variable.id, unit);
   std::vector<float> values(variable.length);
   check(nc_get_var_float(id_, variable.id, values.data()), name);
@@ -88,7 +101,7 @@ std::vector<float> NetcdfReader::floats(const char* name, const std::vector<cons
 
 std::vector<double> NetcdfReader::doubles(const char* name, const std::vector<const char*>& dimensions,
                                           std::string_view unit) const {
-  const Variable variable = find(name, dimensions, false);
+  const Variable variable = find(name, dimensions, Kind::kReal);
   expect_unit(name, variable.id, unit);
   std::vector<double> values(variable.length);
   check(nc_get_var_double(id_, variable.id, values.data()), name);
@@ -97,10 +110,23 @@ std::vector<double> NetcdfReader::doubles(const char* name, const std::vector<co
 
 std::vector<std::uint8_t> NetcdfReader::bytes(const char* name,
                                               const std::vector<const char*>& dimensions) const {
-  const Variable variable = find(name, dimensions, true);
+  const Variable variable = find(name, dimensions, Kind::kByte);
   std::vector<std::uint8_t> values(variable.length);
   check(nc_get_var_uchar(id_, variable.id, values.data()), name);
   return values;
+}
+
+std::vector<std::int64_t> NetcdfReader::integers(const char* name,
+                                                 const std::vector<const char*>& dimensions) const {
+  const Variable variable = find(name, dimensions, Kind::kInteger);
+  std::vector<long long> values(variable.length);
+  check(nc_get_var_longlong(id_, variable.id, values.data()), name);
+  return {values.begin(), values.end()};
+}
+
+bool NetcdfReader::has_variable(const char* name) const {
+  int variable = -1;
+  return nc_inq_varid(id_, name, &variable) == NC_NOERR;
 }
 
 std::string NetcdfReader::text(const char* name) const {

@@ -92,6 +92,22 @@ int NetcdfWriter::variable(const char* name, const std::vector<int>& dimensions,
   return variable;
 }
 
+int NetcdfWriter::variable(const char* name, const std::vector<int>& dimensions,
+                           const std::vector<std::int32_t>& values) {
+  const int variable = define(name, NC_INT, dimensions);
+  check(nc_put_var_int(id_, variable, values.data()));
+  return variable;
+}
+
+int NetcdfWriter::variable(const char* name, const std::vector<int>& dimensions,
+                           const std::vector<std::int64_t>& values) {
+  static_assert(sizeof(long long) == sizeof(std::int64_t));
+  const std::vector<long long> copy(values.begin(), values.end());
+  const int variable = define(name, NC_INT64, dimensions);
+  check(nc_put_var_longlong(id_, variable, copy.data()));
+  return variable;
+}
+
 void NetcdfWriter::attribute(int variable, const char* name, std::string_view text) {
   check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
 }

@@ -58,16 +58,6 @@ Result<GridGeometry> geometry_over(const Box& box, const Pose2& map_T_frame, dou
   return geometry;
 }
 
-std::vector<float> distances_to(std::span<const Fingerprint> fingerprints, const GridGeometry& geometry,
-                                double far_m) {
-  OccupancyGrid marks(geometry, CellState::kFree);
-  for (const Fingerprint& f : fingerprints) {
-    const Cell cell = geometry.cell_at(f.position_m);
-    if (marks.contains(cell)) marks[cell] = CellState::kOccupied;
-  }
-  return DistanceField(marks, far_m).values_m().values();
-}
-
 bool free_nearby(const OccupancyGrid& occupancy, const Vector2d& map_point_m) {
   const Cell center = occupancy.geometry().cell_at(map_point_m);
   for (int row = center.row - kBorderCells; row <= center.row + kBorderCells; ++row)
@@ -77,6 +67,16 @@ bool free_nearby(const OccupancyGrid& occupancy, const Vector2d& map_point_m) {
 }
 
 }  // namespace
+
+std::vector<float> distances_to(std::span<const Fingerprint> fingerprints, const GridGeometry& geometry,
+                                double far_m) {
+  OccupancyGrid marks(geometry, CellState::kFree);
+  for (const Fingerprint& f : fingerprints) {
+    const Cell cell = geometry.cell_at(f.position_m);
+    if (marks.contains(cell)) marks[cell] = CellState::kOccupied;
+  }
+  return DistanceField(marks, far_m).values_m().values();
+}
 
 Result<FieldArea> make_field_area(std::span<const Fingerprint> fingerprints, const OccupancyGrid* occupancy,
                                   double resolution_m, double reach_m, double far_m) {

@@ -20,6 +20,10 @@ struct FieldArea {
   float far_m = 0.0F;
 };
 
+/// From each cell to the nearest fingerprint, in m, to within a cell; at most `far_m`.
+std::vector<float> distances_to(std::span<const Fingerprint> fingerprints, const GridGeometry& geometry,
+                                double far_m);
+
 /// Without an occupancy grid: all cells within `reach_m` of a fingerprint, along the map's axes. With one:
 /// along its axes, its free cells, two cells of border around them so that they can be interpolated between,
 /// and what was surveyed beyond them. Distances are known up to `far_m`. Errors: a place too large for

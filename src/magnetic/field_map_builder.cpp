@@ -1,7 +1,10 @@
 #include "mstsl/magnetic/field_map_builder.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "field_area.hpp"
 #include "field_models.hpp"
@@ -48,6 +51,22 @@ void describe(const SurveyAnalysis& survey, FieldMap& map) {
   put_score("between_lanes_uncalibrated", survey.held_out.between_lanes_before);
 }
 
+/// Which drive came last within reach of each supported cell.
+std::vector<std::int32_t> newest_drives(const FieldMap& map, double reach_m) {
+  std::vector<std::int32_t> newest(map.geometry.size(), -1);
+  for (int drive = 0; std::cmp_less(drive, map.drives.size()); ++drive) {
+    std::vector<Fingerprint> own;
+    for (const Fingerprint& f : map.fingerprints)
+      if (f.session == drive) own.push_back(f);
+    if (own.empty()) continue;
+    const std::vector<float> distance_m =
+        distances_to(own, map.geometry, reach_m + map.geometry.resolution_m);
+    for (std::size_t i = 0; i < newest.size(); ++i)
+      if (map.supported[i] != 0 && distance_m[i] <= reach_m) newest[i] = drive;
+  }
+  return newest;
+}
+
 }  // namespace
 
 Result<FieldMap> build_field_map(const SurveyAnalysis& survey, const OccupancyGrid* area_grid,
@@ -82,6 +101,8 @@ Result<FieldMap> build_field_map(const SurveyAnalysis& survey, const OccupancyGr
   for (std::size_t i = 0; i < map.supported.size(); ++i)
     map.supported[i] =
         map.has_value(map.geometry.cell(i)) && static_cast<double>(area->distance_m[i]) <= support_m(survey);
+  map.drives = options.drives;
+  if (!map.drives.empty()) map.newest_drive = newest_drives(map, support_m(survey));
   return map;
 }
 

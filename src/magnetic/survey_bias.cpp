@@ -25,10 +25,6 @@ using Eigen::VectorXd;
 constexpr double kCluster_m =
     2.0;  // longer than the field's correlation along a corridor (1.5-3 m to one half)
 
-Matrix3d map_R_base(const Fingerprint& f) {
-  return Eigen::AngleAxisd(f.heading_rad, Vector3d::UnitZ()).toRotationMatrix();
-}
-
 /// Unknowns a session: bias x y z; stretch and shear of the horizontal field, its leaks into the vertical.
 constexpr Index kUnknowns = 7, kSoftUnknowns = 4;
 using Sensitivity = Eigen::Matrix<double, 3, kUnknowns>;
@@ -36,7 +32,7 @@ using Sensitivity = Eigen::Matrix<double, 3, kUnknowns>;
 /// How the corrected field of a fingerprint, map frame, follows its session's unknowns where the field is
 /// `typical_uT`. Its own reading would be more exact, and let an outlier speak for itself.
 Sensitivity sensitivity(const Fingerprint& f, const Vector3d& typical_uT) {
-  const Matrix3d rotation = map_R_base(f);
+  const Matrix3d rotation = f.map_R_base();
   const Vector3d m = rotation.transpose() * typical_uT;
   Sensitivity base = Sensitivity::Zero();
   base.leftCols<3>() = -Matrix3d::Identity();
@@ -246,7 +242,7 @@ SurveyBias estimate_survey_bias(std::span<const Fingerprint> fingerprints, const
 void remove_bias(std::span<Fingerprint> fingerprints, const SurveyBias& bias) {
   for (Fingerprint& f : fingerprints) {
     const SessionBias& session = bias.sessions[static_cast<std::size_t>(f.session)];
-    const Matrix3d rotation = map_R_base(f);
+    const Matrix3d rotation = f.map_R_base();
     f.field_uT = rotation * (session.soft_iron * (rotation.transpose() * f.field_uT) - session.base_bias_uT);
   }
 }

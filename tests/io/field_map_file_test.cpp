@@ -50,6 +50,21 @@ FieldMap sample_map(Random random, double yaw_rad = 0.0) {
   return map;
 }
 
+/// A map that knows its drives, and has been updated.
+FieldMap updated_map(Random random) {
+  FieldMap map = sample_map(random);
+  map.drives = {{"survey_1.mcap", Stamp{-5}, Stamp{7}},
+                {"monday µ.bag", Stamp{1'700'000'000'123'456'789}, Stamp{1'700'000'001'000'000'000}}};
+  for (std::size_t i = 0; i < map.geometry.size(); ++i)
+    map.newest_drive.push_back(map.supported[i] == 0 ? -1 : random.chance(0.5) ? 1 : 0);
+  for (Fingerprint& f : map.fingerprints) {
+    f.heading_rad = random.normal();
+    f.session = random.chance(0.5) ? 1 : 0;
+  }
+  for (int i = 0; i < 5; ++i) map.replaced.push_back({map.fingerprints[static_cast<std::size_t>(i)], 1});
+  return map;
+}
+
 /// The very bits, so that NaN equals NaN.
 template <typename T>
 bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
@@ -69,6 +84,16 @@ void expect_same(const FieldMap& a, const FieldMap& b) {
   for (std::size_t i = 0; i < a.fingerprints.size(); ++i) {
     EXPECT_EQ(a.fingerprints[i].position_m, b.fingerprints[i].position_m);
     EXPECT_EQ(a.fingerprints[i].field_uT, b.fingerprints[i].field_uT);
+    EXPECT_EQ(a.fingerprints[i].heading_rad, b.fingerprints[i].heading_rad);
+    EXPECT_EQ(a.fingerprints[i].session, b.fingerprints[i].session);
+  }
+  EXPECT_EQ(a.drives, b.drives);
+  EXPECT_EQ(a.newest_drive, b.newest_drive);
+  ASSERT_EQ(a.replaced.size(), b.replaced.size());
+  for (std::size_t i = 0; i < a.replaced.size(); ++i) {
+    EXPECT_EQ(a.replaced[i].by_session, b.replaced[i].by_session);
+    EXPECT_EQ(a.replaced[i].fingerprint.position_m, b.replaced[i].fingerprint.position_m);
+    EXPECT_EQ(a.replaced[i].fingerprint.session, b.replaced[i].fingerprint.session);
   }
 }
 
@@ -100,6 +125,14 @@ TEST(FieldMapFile, ReadsBackEveryBitItWrote) {
   }
 }
 
+TEST(FieldMapFile, KeepsItsDrivesAndWhatTheyReplaced) {
+  const FieldMap map = updated_map(Random(8));
+  expect_same(map, through_memory(map));
+  FieldMap fresh = updated_map(Random(9));
+  fresh.replaced.clear();
+  expect_same(fresh, through_memory(fresh));
+}
+
 TEST(FieldMapFile, GivesTheSameBytesForTheSameMap) {
   EXPECT_EQ(must(encode_field_map(sample_map(Random(3)), "a")),
             must(encode_field_map(sample_map(Random(3)), "b")));
@@ -120,7 +153,7 @@ TEST(FieldMapFile, MayBeReadFromManyThreadsAtOnce) {
 
 TEST(FieldMapFile, RefusesToWriteWhatCouldNotBeRead) {
   const auto refusal = [](const std::function<void(FieldMap&)>& spoil) {
-    FieldMap map = sample_map(Random(6));
+    FieldMap map = updated_map(Random(6));
     map.mean_uT[0] = map.variance_uT2[0] = Eigen::Vector3f::Ones();
     spoil(map);
     const test::TemporaryFolder folder;
@@ -137,6 +170,14 @@ TEST(FieldMapFile, RefusesToWriteWhatCouldNotBeRead) {
   EXPECT_NE(refusal([](FieldMap& m) { m.geometry.resolution_m = 0; }).find("resolution"), std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.hyperparameters["a b/c"] = 1; }).find("'a b/c'"), std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.hyperparameters["a"] = NAN; }).find("'a'"), std::string::npos);
+  EXPECT_NE(refusal([](FieldMap& m) { m.fingerprints[3].session = 2; }).find("fingerprint 3 is of drive 2"),
+            std::string::npos);
+  EXPECT_NE(refusal([](FieldMap& m) { m.newest_drive[2] = 2; }).find("'newest_drive' is 2"),
+            std::string::npos);
+  EXPECT_NE(refusal([](FieldMap& m) { m.newest_drive.pop_back(); }).find("does not fit"), std::string::npos);
+  EXPECT_NE(refusal([](FieldMap& m) { m.replaced[1].by_session = -1; }).find("replaced fingerprint 1"),
+            std::string::npos);
+  EXPECT_NE(refusal([](FieldMap& m) { m.drives[1].last = Stamp{0}; }).find("ends before"), std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m.fingerprints[3].field_uT.x() = NAN; }).find("fingerprint 3"),
             std::string::npos);
   EXPECT_NE(refusal([](FieldMap& m) { m = FieldMap(); }).find("no cells"), std::string::npos);
@@ -157,7 +198,7 @@ TEST(FieldMapFile, TellsWhatIsNoFieldMapWithoutNoiseOnStderr) {
 }
 
 TEST(FieldMapFile, NoticesEveryDamage) {
-  const std::string good = must(encode_field_map(sample_map(Random(8)), "m"));
+  const std::string good = must(encode_field_map(updated_map(Random(8)), "m"));
   const std::size_t seal_at = good.rfind("\nmstsl crc32 ");
   const std::string seal = good.substr(seal_at);
   test::for_each_damage(good.substr(0, seal_at), 1000, Random(9), [&](const std::string& bytes) {
@@ -167,17 +208,17 @@ TEST(FieldMapFile, NoticesEveryDamage) {
 }
 
 TEST(FieldMapFile, AnswersToEveryLength) {
-  const std::string good = must(encode_field_map(sample_map(Random(8)), "m"));
+  const std::string good = must(encode_field_map(updated_map(Random(8)), "m"));
   for (std::size_t length = 0; length < good.size(); length += 101)
     if (const auto map = decode_field_map(good.substr(0, length), "m"); map)
-      expect_same(*map, sample_map(Random(8)));
+      expect_same(*map, updated_map(Random(8)));
   EXPECT_FALSE(decode_field_map(good.substr(0, good.size() / 2), "m"));
 }
 
 /// A folder with field.nc in it, for programs of others.
 class Opened {
  public:
-  Opened() { must(write_field_map(sample_map(Random(10)), file())); }
+  Opened() { must(write_field_map(updated_map(Random(10)), file())); }
   fs::path file() const { return folder_.path() / "field.nc"; }
   test::Output python(const std::string& script) const {
     must(write_file(folder_.path() / "script.py",
@@ -205,7 +246,7 @@ TEST(FieldMapFile, OpensInNcdump) {
 TEST(FieldMapFile, OpensInPythonWithTheSameNumbers) {
   MSTSL_REQUIRE_PROGRAM("/usr/bin/python3 -c 'import netCDF4'", "python3-netcdf4");
   const Opened opened;
-  const FieldMap map = sample_map(Random(10));
+  const FieldMap map = updated_map(Random(10));
   const test::Output output = opened.python(
       "b = d['by'][:]\nprint(d.Conventions, d['by'].units, b.shape, int(b.mask.sum() if b.mask.shape else 0) "
       "+ "

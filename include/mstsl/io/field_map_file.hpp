@@ -15,8 +15,11 @@ namespace mstsl::io {
 /// Coordinates x, y (m): cell centres in the map frame, or, where the grid is turned, in the grid's own frame
 /// (its pose is in the attributes grid_origin_x_m, grid_origin_y_m, grid_yaw_rad). Variables over (y, x): bx,
 /// by, bz (uT), bx_variance, by_variance, bz_variance (uT2), NaN where unknown, and supported (0 or 1); over
-/// (fingerprint): fp_x, fp_y (m), fp_bx, fp_by, fp_bz (uT). Global attributes: model, height_m, resolution_m,
-/// hyperparameter_NAME for each hyper-parameter, provenance.
+/// (fingerprint): fp_x, fp_y (m), fp_bx, fp_by, fp_bz (uT). Where the map knows its drives, also: over
+/// (drive): drive_begin, drive_end (nanoseconds since 1970), their logs in the attribute drives; fp_heading
+/// (rad), fp_drive (index of the drive); over (y, x) newest_drive, which came near last (-1: none); the same
+/// columns as replaced_fp_* for fingerprints that an update took out, with replaced_fp_by_drive. Global
+/// attributes: model, height_m, resolution_m, hyperparameter_NAME for each hyper-parameter, provenance.
 ///
 /// Errors: a full disk; a map that read_field_map() would refuse (sizes that do not fit, half-finite cells,
 /// ...).

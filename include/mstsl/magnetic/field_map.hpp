@@ -32,7 +32,10 @@ struct FieldMap {
   double height_m = 0.0;                          ///< of the magnetometer above the floor, 0 if unknown
   std::map<std::string, double> hyperparameters;  ///< by name with unit: "length_scale_x_m", ...
   std::vector<std::string> provenance;            ///< the logs and options it was made from
-  std::vector<Fingerprint> fingerprints;          ///< the survey itself; needed by the fingerprint model
+  std::vector<Fingerprint> fingerprints;          ///< the survey itself: to update the map, and to answer by
+  std::vector<SurveyDrive> drives;         ///< by Fingerprint::session; none where the map does not say
+  std::vector<std::int32_t> newest_drive;  ///< of each cell that is supported, else -1; empty without drives
+  std::vector<ReplacedFingerprint> replaced;  ///< what an update took out, and why
 
   bool has_value(Cell cell) const;
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
@@ -25,6 +26,8 @@ struct FieldMapOptions {
   bool heavy_tails = true;
   SurveyAnalysisOptions analysis;  ///< its `threads` is replaced by the one below
   Threads threads;
+  /// The drives that the fingerprints' sessions count, if the map is to know them.
+  std::vector<SurveyDrive> drives;
   /// Called now and then with the share of the work that is done, from one thread at a time.
   std::function<void(double)> progress;
 };

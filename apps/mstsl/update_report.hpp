@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mstsl/magnetic/field_map.hpp"
+#include "mstsl/magnetic/field_update.hpp"
+
+#include "located_drives.hpp"
+
+namespace mstsl::app {
+
+/// What `mstsl map update` tells: for people, and as one JSON object. `made` is the new map, if one was made.
+std::string update_report_text(const LocatedDrives& drives, const FieldUpdate& update,
+                               const std::optional<FieldMap>& made);
+std::string update_report_json(const LocatedDrives& drives, const FieldUpdate& update,
+                               const std::optional<FieldMap>& made);
+
+}  // namespace mstsl::app

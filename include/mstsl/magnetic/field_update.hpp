@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mstsl/core/result.hpp"
+#include "mstsl/magnetic/field_check.hpp"
+#include "mstsl/magnetic/field_map.hpp"
+#include "mstsl/magnetic/fingerprint.hpp"
+
+namespace mstsl {
+
+struct FieldUpdateOptions {
+  /// A map's errors are alike along so much of a drive, in m: a stretch of this length is judged as one.
+  double stretch_m = 1.0;
+  /// How far off a drive's places are, in m, in each direction: what tracking by scans leaves. Where the
+  /// field is steep this makes most of the error.
+  double place_sd_m = 0.03;
+  /// Changed is a stretch whose root mean square error is so many standard deviations of what the map and the
+  /// places allow, and so many times what is usual on that drive.
+  double changed_sigmas = 3.0;
+  /// A drive whose usual square error is more than this share of the field's own variance along it is of
+  /// another building: to know nothing of the field would give 1, to expect another one 2.
+  double unexplained_share = 0.5;
+};
+
+/// A stretch of a drive where the field is no longer what it was.
+struct FieldChange {
+  Eigen::Vector2d center_m = Eigen::Vector2d::Zero();
+  double length_m = 0.0;
+  Eigen::Array3d rms_uT = Eigen::Array3d::Zero();  ///< of measured minus foretold
+};
+
+/// What a drive says of a map that was made without it.
+struct DriveComparison {
+  FieldCheck check;  ///< with the bias taken out
+  Eigen::Vector3d base_bias_uT =
+      Eigen::Vector3d::Zero();  ///< of its magnetometer against the map's, in the base's frame
+  double compared_m = 0.0;      ///< driven over ground that the map knows
+  double new_m = 0.0;           ///< and over ground that it does not
+  double changed_m = 0.0;
+  double usual_sigmas = 0.0;  ///< median over the stretches of the error, in standard deviations
+  double unexplained = 0.0;   ///< median square of the error by the median square of the foretold field's
+                              ///< departure from its mean
+  std::vector<FieldChange> changes;
+};
+
+/// A map's survey brought up to date by drives that are newer than all of it.
+struct FieldUpdate {
+  std::vector<Fingerprint> fingerprints;      ///< what still holds, then the new: what the new map is made of
+  std::vector<ReplacedFingerprint> replaced;  ///< now and before
+  std::size_t replaced_now = 0;
+  std::vector<DriveComparison> drives;  ///< by session, from the first new one on
+};
+
+/// Compares drives with a map and merges them: where they find the field that the map foretells, both count;
+/// where a stretch contradicts it, the old fingerprints that lie nearer to it than to any other of the new
+/// ones, and not further than the field's length scale, are taken out and kept as replaced. A constant bias
+/// of each drive's magnetometer against the map is estimated (robustly) and taken from it.
+///
+/// `drives` are finite; their sessions count on from the map's. Errors: a map without its fingerprints, a
+/// drive that does not touch the map, a drive that contradicts the map everywhere.
+Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerprint> drives,
+                                  const FieldUpdateOptions& options = {});
+
+}  // namespace mstsl

@@ -1,0 +1,115 @@
+#include "mstsl/magnetic/field_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "drive_comparison.hpp"
+#include "point_bins.hpp"
+
+namespace mstsl {
+namespace {
+
+using Eigen::Vector2d;
+
+/// The new drives as one, to find what lies near a place.
+struct NewDrives {
+  std::vector<Fingerprint> fingerprints;
+  std::vector<std::uint8_t> changed;
+  std::vector<Vector2d> positions_m;
+
+  void add(ComparedDrive drive) {
+    for (const Fingerprint& f : drive.fingerprints) positions_m.push_back(f.position_m);
+    fingerprints.insert(fingerprints.end(), drive.fingerprints.begin(), drive.fingerprints.end());
+    changed.insert(changed.end(), drive.changed.begin(), drive.changed.end());
+  }
+};
+
+/// The session of the new drive that contradicts an old fingerprint, or -1: its nearest new neighbour within
+/// `reach_m` decides.
+int replaced_by(const Fingerprint& old, const NewDrives& drives, const PointBins& bins, double reach_m) {
+  double nearest_m = reach_m;
+  int by = -1;
+  const Vector2d reach = Vector2d::Constant(reach_m);
+  bins.for_each_near(old.position_m - reach, old.position_m + reach, [&](std::size_t i) {
+    const double away_m = (drives.positions_m[i] - old.position_m).norm();
+    if (away_m >= nearest_m) return;
+    nearest_m = away_m;
+    by = drives.changed[i] != 0 ? drives.fingerprints[i].session : -1;
+  });
+  return by;
+}
+
+/// How far aside of a drive a change is taken to reach: as far as the field is alike.
+double reach_of(const FieldMap& map) {
+  constexpr double kUnknown_m = 0.5;  // the shortest length scales of real buildings
+  double reach_m = std::numeric_limits<double>::infinity();
+  for (const char* name : {"length_scale_x_m", "length_scale_y_m", "length_scale_z_m"})
+    if (const auto length = map.hyperparameters.find(name); length != map.hyperparameters.end())
+      reach_m = std::min(reach_m, length->second);
+  return std::isfinite(reach_m) && reach_m > 0.0 ? reach_m : kUnknown_m;
+}
+
+std::vector<std::span<const Fingerprint>> by_session(std::span<const Fingerprint> drives) {
+  std::vector<std::span<const Fingerprint>> sessions;
+  for (std::size_t i = 0; i < drives.size();) {
+    std::size_t end = i;
+    while (end < drives.size() && drives[end].session == drives[i].session) ++end;
+    sessions.push_back(drives.subspan(i, end - i));
+    i = end;
+  }
+  return sessions;
+}
+
+std::optional<Error> refusal(const DriveComparison& drive, const FieldUpdateOptions& options,
+                             const std::string& name) {
+  if (drive.check.score.errors == 0)
+    return Error(name + " does not come near anything that the map was made from; nothing can be compared");
+  if (drive.unexplained > options.unexplained_share)
+    return Error(
+        fmt::format("{} contradicts the map nearly everywhere (its errors are typically {:.0f} % of the "
+                    "field's own changes "
+                    "along it): is it another building, another mounting of the magnetometer, a calibration "
+                    "forgotten? If "
+                    "all has changed, make the map anew",
+                    name, 100 * std::sqrt(drive.unexplained)));
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerprint> drives,
+                                  const FieldUpdateOptions& options) {
+  if (map.fingerprints.empty())
+    return Error("the map does not hold the fingerprints that it was made from, so it cannot be updated");
+  if (drives.empty()) return Error("the new drives hold no fingerprint; is the field's topic the right one?");
+  FieldUpdate update{{}, map.replaced, 0, {}};
+  NewDrives added;
+  for (const std::span<const Fingerprint> session : by_session(drives)) {
+    ComparedDrive drive = compare_drive(map, session, options);
+    const std::string name = fmt::format("drive {}", update.drives.size() + 1);
+    if (auto error = refusal(drive.comparison, options, name)) return *std::move(error);
+    update.drives.push_back(drive.comparison);
+    added.add(std::move(drive));
+  }
+  const double reach_m = reach_of(map);
+  const PointBins bins(added.positions_m, reach_m);
+  for (const Fingerprint& old : map.fingerprints) {
+    const int by = replaced_by(old, added, bins, reach_m);
+    if (by < 0)
+      update.fingerprints.push_back(old);
+    else
+      update.replaced.push_back({old, by});
+  }
+  update.replaced_now = update.replaced.size() - map.replaced.size();
+  update.fingerprints.insert(update.fingerprints.end(), added.fingerprints.begin(), added.fingerprints.end());
+  return update;
+}
+
+}  // namespace mstsl
