@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <utility>
 
 #include "mstsl/eval/run_loop.hpp"
 #include "mstsl/magnetic/field_map_builder.hpp"
@@ -40,14 +42,20 @@ Error interrupted() { return Error("the protocol was interrupted before its end;
 struct Setting {
   sim::World today;
   std::vector<Maps> maps;  ///< by model
+  std::shared_ptr<const TracedPlace> place;
   std::vector<Eigen::Vector2d> waypoints_m;
   std::size_t fingerprints = 0;
 };
 
-Result<std::vector<Maps>> make_maps(const sim::World& world, const std::vector<Fingerprint>& fingerprints,
-                                    const PaperProtocolOptions& options, Teller& teller) {
+struct AllMaps {
+  std::vector<Maps> by_model;
+  std::shared_ptr<const TracedPlace> place;
+};
+
+Result<AllMaps> make_maps(const sim::World& world, const std::vector<Fingerprint>& fingerprints,
+                          const PaperProtocolOptions& options, Teller& teller) {
   const OccupancyGrid occupancy = sim::occupancy_map(world);
-  std::vector<Maps> maps;
+  AllMaps maps;
   for (const FieldModel model : options.models) {
     FieldMapOptions build;
     build.model = model;
@@ -57,9 +65,11 @@ Result<std::vector<Maps>> make_maps(const sim::World& world, const std::vector<F
     Result<FieldMap> field = build_field_map(fingerprints, &occupancy, build);
     if (!field) return field.error();
     if (teller.stopped()) return interrupted();
+    if (!maps.place)
+      maps.place = std::make_shared<const TracedPlace>(TracedPlace{options.world, occupancy, *field});
     auto both = make_localization_maps(occupancy, std::move(field).value(), {.threads = options.threads});
     if (!both) return both.error();
-    maps.push_back(std::move(both).value());
+    maps.by_model.push_back(std::move(both).value());
   }
   return maps;
 }
@@ -75,7 +85,8 @@ Result<Setting> prepare(const PaperProtocolOptions& options, const Random& rando
   auto maps = make_maps(*world, *fingerprints, options, teller);
   if (!maps) return maps.error();
   Setting setting{sim::on_another_day(*world, options.moved_fraction, random.fork(kDay)),
-                  std::move(maps).value(),
+                  std::move(maps->by_model),
+                  std::move(maps->place),
                   {},
                   fingerprints->size()};
   for (int i = 0; i < options.waypoints; ++i) {
@@ -87,10 +98,15 @@ Result<Setting> prepare(const PaperProtocolOptions& options, const Random& rando
   return setting;
 }
 
+/// What one start gave.
+struct Start {
+  std::vector<ProtocolRun> runs;  ///< by model
+  std::optional<RunTrace> trace;  ///< of the first from its waypoint
+};
+
 /// One start: the robot aligns itself, drives, and every model's localizer hears the same events.
-Result<std::vector<ProtocolRun>> run_once(const Setting& setting, const PaperProtocolOptions& options,
-                                          const TwoStepOptions& two_step, const Random& random, int waypoint,
-                                          int run) {
+Result<Start> run_once(const Setting& setting, const PaperProtocolOptions& options,
+                       const TwoStepOptions& two_step, const Random& random, int waypoint, int run) {
   const auto route = sim::route_from(setting.today, setting.waypoints_m[static_cast<std::size_t>(waypoint)],
                                      options.run, random.fork(kRoute));
   if (!route) return route.error();
@@ -107,8 +123,11 @@ Result<std::vector<ProtocolRun>> run_once(const Setting& setting, const PaperPro
     loops.emplace_back(AnyLocalizer(TwoStep(setting.maps[m], robot.rig, two_step)),
                        [&estimates, m](const Estimate& estimate) { estimates[m].push_back(estimate); });
   Trajectory truth;
+  std::optional<ScanRecorder> recorder;
+  if (run == 0) recorder.emplace(robot.rig);
   sim::drive(setting.today, robot, *route, Stamp{}, drive_random,
              {[&](const SensorEvent& event) {
+                if (recorder) recorder->observe(event);
                 for (RunLoop& loop : loops) loop.observe(event);
               },
               [&](const PoseReading& pose) { truth.add(pose.stamp, pose.map_T_base); }});
@@ -116,11 +135,16 @@ Result<std::vector<ProtocolRun>> run_once(const Setting& setting, const PaperPro
   const double aligned_yaw = route->start_yaw_rad + robot.motion.initial_turn_rad;
   const double off_rad =
       std::abs(std::remainder(aligned_yaw - setting.today.plan().axis_yaw_rad, radians(90.0)));
-  std::vector<ProtocolRun> runs;
+  Start start;
   for (std::size_t m = 0; m < setting.maps.size(); ++m)
-    runs.push_back(
+    start.runs.push_back(
         {waypoint, run, options.models[m], off_rad, evaluate_run(estimates[m], truth, options.criteria)});
-  return runs;
+  if (!recorder) return start;
+  start.trace = RunTrace{
+      "waypoint " + std::to_string(waypoint + 1), setting.place, std::move(truth), recorder->take(), {}};
+  for (std::size_t m = 0; m < setting.maps.size(); ++m)
+    start.trace->methods.push_back({std::string(to_string(options.models[m])), std::move(estimates[m])});
+  return start;
 }
 
 }  // namespace
@@ -135,7 +159,7 @@ Result<ProtocolResult> run_paper_protocol(const PaperProtocolOptions& options) {
   if (!setting) return setting.error();
 
   const auto starts = static_cast<std::size_t>(options.waypoints * options.runs_per_waypoint);
-  std::vector<std::optional<Result<std::vector<ProtocolRun>>>> done(starts);
+  std::vector<std::optional<Result<Start>>> done(starts);
   std::atomic<std::size_t> finished = 0;
   parallel_for(starts, options.threads, [&](std::size_t i) {
     if (teller.stopped()) return;
@@ -147,10 +171,12 @@ Result<ProtocolResult> run_paper_protocol(const PaperProtocolOptions& options) {
   if (teller.stopped()) return interrupted();
 
   ProtocolResult result{options.world,         options.seed,   two_step.initialise.distinct.count,
-                        setting->fingerprints, options.models, {}};
+                        setting->fingerprints, options.models, {},
+                        setting->waypoints_m,  setting->place, {}};
   for (auto& start : done) {
     if (!*start) return start->error();
-    for (ProtocolRun& run : **start) result.runs.push_back(std::move(run));
+    for (ProtocolRun& run : (*start)->runs) result.runs.push_back(std::move(run));
+    if ((*start)->trace) result.traces.push_back(*std::move((*start)->trace));
   }
   return result;
 }

@@ -6,7 +6,7 @@
 namespace mstsl::report::embedded {
 
 extern const std::string_view page_html, page_css;
-extern const std::string_view common_js, summary_js, map_js, replay_js;
+extern const std::string_view common_js, summary_js, paper_js, map_js, replay_js;
 extern const std::string_view uplot_js, uplot_css;
 
 }  // namespace mstsl::report::embedded

@@ -47,7 +47,7 @@ std::string names_json(const std::vector<RunTrace>& runs) {
 std::string program() {
   std::string text;
   for (const std::string_view part :
-       {embedded::common_js, embedded::summary_js, embedded::map_js, embedded::replay_js})
+       {embedded::common_js, embedded::summary_js, embedded::paper_js, embedded::map_js, embedded::replay_js})
     text += part;
   return text;
 }
@@ -78,6 +78,7 @@ std::string html(const Page& page) {
                  {"plot_style", std::string(embedded::uplot_css)},
                  {"style", std::string(embedded::page_css)},
                  {"summary", page.summary_json.empty() ? "null" : inside_script(page.summary_json)},
+                 {"paper", page.paper_json.empty() ? "null" : inside_script(page.paper_json)},
                  {"run_names", inside_script(names_json(page.runs))},
                  {"runs", run_elements(page.runs)},
                  {"plot_library", std::string(embedded::uplot_js)},

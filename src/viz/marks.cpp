@@ -90,6 +90,18 @@ void draw_hypotheses(Canvas& canvas, const MapView& view, const std::vector<Hypo
     }
 }
 
+void draw_place(Canvas& canvas, const Eigen::Vector2d& at, const std::string& words) {
+  const TextStyle style{.size = 15.0, .color = theme::kInk, .bold = true};
+  const Eigen::Vector2d words_at(at + Eigen::Vector2d(10.0, 5.0));
+  const Eigen::Vector2d size(canvas.text_width(words, style), 12.0);
+  canvas.rectangle({Eigen::Vector2d(words_at.x() - 2.0, words_at.y() - size.y() - 2.0),
+                    Eigen::Vector2d(words_at.x() + size.x() + 2.0, words_at.y() + 3.0)},
+                   theme::kPaper.with_alpha(0.8), 3.0);
+  canvas.text(words_at, words, style);
+  canvas.disc(at, 7.0, theme::kPaper);
+  canvas.disc(at, 5.0, theme::kHypothesis);
+}
+
 void draw_start(Canvas& canvas, const Eigen::Vector2d& at, double angle) {
   canvas.disc(at, 11.0, theme::kPaper);
   canvas.circle(at, 9.0, {theme::kTruth, 3.0, {}});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,6 +22,9 @@ void draw_estimated_path(Canvas& canvas, const MapView& view, const std::vector<
 /// An arrow head at a hypothesis; `weight` relative to the best makes it more or less opaque.
 void draw_hypothesis(Canvas& canvas, const Eigen::Vector2d& at, double angle, double weight, bool rejected);
 void draw_hypotheses(Canvas& canvas, const MapView& view, const std::vector<HypothesisMark>& marks);
+
+/// A disc with a word beside it.
+void draw_place(Canvas& canvas, const Eigen::Vector2d& at, const std::string& words);
 
 void draw_start(Canvas& canvas, const Eigen::Vector2d& at, double angle);
 void draw_robot(Canvas& canvas, const Eigen::Vector2d& at, double angle);

@@ -29,6 +29,7 @@ Eigen::AlignedBox2d content(const OccupancyGrid& map, const RunPicture& run) {
   for (const auto* path : {&run.true_path, &run.estimated_path})
     for (const Pose2& pose : *path) box.extend(pose.position());
   for (const HypothesisMark& mark : run.hypotheses) box.extend(mark.map_T_base.position());
+  for (const PlaceLabel& place : run.places) box.extend(place.place_m);
   const double air_m = 0.02 * box.sizes().maxCoeff();
   return {box.min().array() - air_m, box.max().array() + air_m};
 }
@@ -46,6 +47,7 @@ void draw_run_over(Canvas& canvas, const MapView& view, const RunPicture& run) {
   draw_true_path(canvas, view, run.true_path);
   draw_estimated_path(canvas, view, run.estimated_path);
   draw_hypotheses(canvas, view, run.hypotheses);
+  for (const PlaceLabel& place : run.places) draw_place(canvas, view.to_px(place.place_m), place.words);
   if (run.start) draw_start(canvas, view.to_px(run.start->position()), -run.start->yaw);
   if (!run.estimated_path.empty()) {
     const Pose2& end = run.estimated_path.back();

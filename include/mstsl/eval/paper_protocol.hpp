@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
 #include "mstsl/eval/metrics.hpp"
+#include "mstsl/eval/run_trace.hpp"
 #include "mstsl/eval/simulated_survey.hpp"
 #include "mstsl/localize/two_step.hpp"
 #include "mstsl/magnetic/field_map.hpp"
@@ -57,6 +59,9 @@ struct ProtocolResult {
   std::size_t fingerprints = 0;
   std::vector<FieldModel> models;
   std::vector<ProtocolRun> runs;  ///< by waypoint, run, model
+  std::vector<Eigen::Vector2d> waypoints_m;
+  std::shared_ptr<const TracedPlace> place;  ///< with the field by the first model
+  std::vector<RunTrace> traces;              ///< of the first run from each waypoint, a method a model
 };
 
 /// Runs it. The same result at any number of threads. Errors: a world that is not there, a survey or map that

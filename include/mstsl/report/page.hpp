@@ -5,6 +5,7 @@
 
 #include "mstsl/core/result.hpp"
 #include "mstsl/eval/hard_report.hpp"
+#include "mstsl/eval/paper_protocol.hpp"
 #include "mstsl/eval/run_trace.hpp"
 
 namespace mstsl::report {
@@ -14,6 +15,7 @@ struct Page {
   std::string title;
   std::string subtitle;
   std::string summary_json;    ///< tables and curves of a protocol, as hard_summary() gives them
+  std::string paper_json;      ///< the paper's tables and curves, as paper_summary() gives them
   std::vector<RunTrace> runs;  ///< to be replayed; each must have a place
 };
 
@@ -25,5 +27,8 @@ std::string html(const Page& page);
 /// the first right pose (m, ascending), the errors of later poses (m, 0 to 100 % in 201 steps), and the
 /// reliability of first poses.
 std::string hard_summary(const std::vector<HardRecord>& records, const HardHead& head);
+
+/// The paper's Table I, success by waypoint, ways to the first right pose and errors of first poses.
+std::string paper_summary(const ProtocolResult& result);
 
 }  // namespace mstsl::report

@@ -24,6 +24,12 @@ struct HypothesisMark {
   bool rejected = false;  ///< drawn pale and hollow
 };
 
+/// A place with a word to it, such as a start.
+struct PlaceLabel {
+  Eigen::Vector2d place_m;
+  std::string words;
+};
+
 /// What a picture of a localization run shows; whatever is empty is left out, of the legend too.
 struct RunPicture {
   std::string title;
@@ -35,6 +41,7 @@ struct RunPicture {
   std::vector<Pose2> estimated_path;  ///< where two poses lie over a metre apart the line is broken
   std::vector<HypothesisMark> hypotheses;
   std::optional<Pose2> start;
+  std::vector<PlaceLabel> places;
   std::vector<Eigen::Vector2d> scan_points_m;  ///< the points of one scan, map frame
 };
 
