@@ -141,6 +141,7 @@ Result<Exit> bench_hard(const Session& session, const HardWish& wish, int runs,
   bar.reset();
   const std::string text = hard_text(*records), json = hard_json(*records, head);
   for (const auto& [name, content] : {std::pair{fmt::format("table_{}.txt", wish.set), text},
+                                      {fmt::format("table_{}.csv", wish.set), hard_csv(*records)},
                                       {fmt::format("results_{}.json", wish.set), json},
                                       {fmt::format("cost_{}.json", wish.set), hard_cost_json(*records, head)},
                                       {fmt::format("report_{}.html", wish.set), *page}})
@@ -148,8 +149,8 @@ Result<Exit> bench_hard(const Session& session, const HardWish& wish, int runs,
   if (session.json)
     fmt::print("{}", json);
   else if (!session.quiet)
-    fmt::print("{}\n{}: report_{}.html, table_{}.txt, results_{}.json, cost_{}.json, runs.jsonl\n", text,
-               folder.string(), wish.set, wish.set, wish.set, wish.set);
+    fmt::print("{}\n{}: report_{}.html, table_{}.txt and .csv, results_{}.json, cost_{}.json, runs.jsonl\n",
+               text, folder.string(), wish.set, wish.set, wish.set, wish.set);
   return Exit::kDone;
 }
 

@@ -72,8 +72,8 @@ Result<FieldMap> build(const Session& session, const FieldMap& old, const FieldU
   FieldMapOptions options;
   options.model = old.model;
   options.resolution_m = old.geometry.resolution_m;
-  options.threads = session.threads;
-  options.analysis.bias_removal = BiasRemoval::kNever;  // the old ones' is gone, the new are brought to them
+  options.analysis = analysis_as_before(old);
+  options.threads = options.analysis.threads = session.threads;
   options.drives = old.drives;
   options.drives.insert(options.drives.end(), survey.drives.begin(), survey.drives.end());
   Progress progress("field map", session.quiet);

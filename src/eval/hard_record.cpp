@@ -14,9 +14,15 @@ using Json = nlohmann::ordered_json;
 constexpr double kFirstEdge_ms = 0.001, kGrowth = 1.12;
 
 Json json_of(const JudgedAnswer& a) {
-  return {a.travelled_m, a.probability, a.error.position_m, a.error.yaw_rad, a.right, a.tight};
+  Json list{a.travelled_m, a.probability, a.error.position_m, a.error.yaw_rad, a.right, a.tight};
+  if (a.nees) list.push_back(*a.nees);
+  return list;
 }
-JudgedAnswer answer_from(const Json& j) { return {j.at(0), j.at(1), {j.at(2), j.at(3)}, j.at(4), j.at(5)}; }
+JudgedAnswer answer_from(const Json& j) {
+  JudgedAnswer answer{j.at(0), j.at(1), {j.at(2), j.at(3)}, j.at(4), j.at(5)};
+  if (j.size() > 6) answer.nees = j.at(6);
+  return answer;
+}
 
 template <typename T>
 Json json_of(const std::optional<T>& value) {

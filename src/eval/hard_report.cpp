@@ -58,7 +58,13 @@ std::string method_text(const HardRow& r) {
   text += fmt::format("  reliability of first answers (Brier {:.4f}):", r.first_answers.brier);
   for (const ReliabilityBin& bin : r.first_answers.bins)
     text += fmt::format("  {:.3f} -> {:.3f} ({})", bin.mean_claim, bin.right.share(), bin.right.of);
-  text += "\n" + kidnap_text(r);
+  text += "\n";
+  if (r.covariances.poses > 0)
+    text += fmt::format(
+        "  covariances of right poses: NEES mean {:.2f} (3 if true), median {:.2f} (2.37), within 95 % {} "
+        "%\n",
+        r.covariances.mean_nees, r.covariances.median_nees, percent(r.covariances.within_95));
+  text += kidnap_text(r);
   for (const auto& [what, cost] : {std::pair{"searching", &r.searching}, {"tracking", &r.tracking}})
     text +=
         fmt::format("  CPU per scan {}: 50 % {:.2f} ms, 95 % {:.2f}, 99 % {:.2f}, worst {:.1f} ({} scans)\n",
@@ -110,6 +116,11 @@ Json json_of(const HardRow& r) {
           {"error_after_fix_rad", quantiles(r.error_rad)},
           {"first_answers", json_of(r.first_answers)},
           {"thinned_answers", json_of(r.thinned_answers)},
+          {"nees",
+           {{"poses", r.covariances.poses},
+            {"mean", r.covariances.mean_nees},
+            {"median", r.covariances.median_nees},
+            {"within_95", json_of(r.covariances.within_95)}}},
           {"false_alarms", r.false_alarms},
           {"times_lost", r.times_lost},
           {"kidnap",

@@ -64,6 +64,7 @@ HardRow row_of(const std::vector<HardRecord>& records, const HardKey& which) {
   }
   row.first_answers = calibrate(firsts);
   row.thinned_answers = calibrate(thinned);
+  row.covariances = consistency(thinned);
   return row;
 }
 

@@ -4,13 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
 namespace mstsl {
 namespace {
 
+std::optional<double> nees_of(const Estimate& estimate, const Pose2& truth) {
+  const Eigen::LLT<Eigen::Matrix3d> factor(estimate.covariance);
+  if (!estimate.covariance.allFinite() || factor.info() != Eigen::Success) return std::nullopt;
+  const Pose2& pose = *estimate.map_T_base;
+  const Eigen::Vector3d error(pose.x - truth.x, pose.y - truth.y, angle_between(truth.yaw, pose.yaw));
+  return error.dot(factor.solve(error));
+}
+
 JudgedAnswer judge(const Estimate& estimate, const Pose2& truth, const Criteria& criteria) {
   const PoseError error = error_between(*estimate.map_T_base, truth);
-  return {estimate.travelled_m, estimate.probability, error, criteria.success.holds(error),
-          criteria.tight.holds(error)};
+  return {estimate.travelled_m,          estimate.probability,        error,
+          criteria.success.holds(error), criteria.tight.holds(error), nees_of(estimate, truth)};
 }
 
 JudgedInitialisation judge_initialisation(const std::vector<Hypothesis>& hypotheses, const Pose2& truth,

@@ -79,6 +79,22 @@ Calibration calibrate(const std::vector<JudgedAnswer>& answers) {
   return calibration;
 }
 
+Consistency consistency(const std::vector<JudgedAnswer>& answers) {
+  constexpr double kBound95 = 7.815;  // chi-square, 3 degrees of freedom
+  std::vector<double> nees;
+  Consistency result;
+  for (const JudgedAnswer& answer : answers) {
+    if (!answer.right || !answer.nees) continue;
+    nees.push_back(*answer.nees);
+    result.within_95.add(*answer.nees <= kBound95);
+  }
+  const Spread spread = spread_of(nees);
+  result.poses = spread.count;
+  result.mean_nees = spread.mean;
+  result.median_nees = spread.median;
+  return result;
+}
+
 Summary summarise(const std::vector<RunEvaluation>& runs, const Criteria& criteria) {
   Summary summary;
   summary.runs = runs.size();
@@ -95,6 +111,7 @@ Summary summarise(const std::vector<RunEvaluation>& runs, const Criteria& criter
   summary.correct_distance_m = spread_of(gathered.distance_m);
   summary.first_answers = calibrate(gathered.firsts);
   summary.all_answers = calibrate(gathered.all);
+  summary.covariances = consistency(gathered.all);
   return summary;
 }
 

@@ -83,6 +83,10 @@ std::string to_text(const Summary& summary) {
   text += line("", summary.final_error_yaw_rad, to_deg, "deg");
   text += line("probabilities of first poses", summary.first_answers);
   text += line("probabilities of all poses", summary.all_answers);
+  if (summary.covariances.poses > 0)
+    text += fmt::format("  covariances: NEES mean {:.2f} (3 if true), median {:.2f} (2.37)\n",
+                        summary.covariances.mean_nees, summary.covariances.median_nees) +
+            line("right poses within their 95 % ellipsoid", summary.covariances.within_95);
   if (summary.times_lost > 0) text += fmt::format("  lost {} times\n", summary.times_lost);
   if (summary.without_truth > 0)
     text += fmt::format("  {} estimates lie outside the truth's time and were not judged\n",
@@ -109,6 +113,11 @@ std::string to_json(const Summary& summary) {
                   {"final_error_yaw_rad", to_json(summary.final_error_yaw_rad)},
                   {"first_answers", to_json(summary.first_answers)},
                   {"all_answers", to_json(summary.all_answers)},
+                  {"nees",
+                   {{"poses", summary.covariances.poses},
+                    {"mean", summary.covariances.mean_nees},
+                    {"median", summary.covariances.median_nees},
+                    {"within_95", to_json(summary.covariances.within_95)}}},
                   {"times_lost", summary.times_lost},
                   {"without_truth", summary.without_truth}};
   return json.dump();

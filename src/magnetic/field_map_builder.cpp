@@ -27,7 +27,10 @@ double support_m(const SurveyAnalysis& survey) {
 
 void describe(const SurveyAnalysis& survey, FieldMap& map) {
   if (survey.model == FieldModel::kGpr) map.hyperparameters = to_named(survey.hyperparameters.values);
-  if (survey.harmonic) map.hyperparameters["harmonic_depth_m"] = survey.harmonic->depth_m;
+  if (survey.harmonic) {
+    map.hyperparameters["harmonic_depth_m"] = survey.harmonic->depth_m;
+    map.hyperparameters["harmonic_side"] = static_cast<double>(survey.harmonic->side);
+  }
   if (survey.model == FieldModel::kBilinear)
     map.hyperparameters["lattice_spacing_m"] = survey.bilinear_spacing_m;
   const auto put = [&](const std::string& name, const Eigen::Array3d& values, const std::string& unit) {

@@ -112,4 +112,26 @@ Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerpri
   return update;
 }
 
+SurveyAnalysisOptions analysis_as_before(const FieldMap& map) {
+  SurveyAnalysisOptions options;
+  options.bias_removal = BiasRemoval::kNever;
+  const auto number = [&](const char* name) {
+    const auto found = map.hyperparameters.find(name);
+    return found == map.hyperparameters.end() ? std::nullopt : std::optional(found->second);
+  };
+  if (const auto spacing_m = number("lattice_spacing_m"); spacing_m && *spacing_m > 0.0)
+    options.bilinear_spacing_m = spacing_m;
+  const auto known = from_named(map.hyperparameters);
+  if (!known) return options;
+  const auto depth_m = number("harmonic_depth_m"), side = number("harmonic_side");
+  const bool harmonic =
+      depth_m && side && *depth_m > 0.0 && *side >= 0.0 && *side <= static_cast<double>(SourceSide::kBoth);
+  if (harmonic)
+    options.harmonic = HarmonicHyperparameters{static_cast<SourceSide>(static_cast<int>(*side)), *depth_m,
+                                               known->signal_sd_uT.z(), known->mean_uT, known->noise_sd_uT};
+  else if (!depth_m)
+    options.hyperparameters = known;
+  return options;
+}
+
 }  // namespace mstsl

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mstsl {
 
@@ -15,6 +16,22 @@ std::map<std::string, double> to_named(const FieldHyperparameters& h) {
     named["noise_sd_" + axis + "_uT"] = h.noise_sd_uT(c);
   }
   return named;
+}
+
+std::optional<FieldHyperparameters> from_named(const std::map<std::string, double>& named) {
+  FieldHyperparameters h;
+  for (int c = 0; c < 3; ++c) {
+    const std::string axis(1, "xyz"[c]);
+    for (const auto& [name, value] : {std::pair{"mean_" + axis + "_uT", &h.mean_uT(c)},
+                                      {"signal_sd_" + axis + "_uT", &h.signal_sd_uT(c)},
+                                      {"length_scale_" + axis + "_m", &h.length_scale_m(c)},
+                                      {"noise_sd_" + axis + "_uT", &h.noise_sd_uT(c)}}) {
+      const auto found = named.find(name);
+      if (found == named.end()) return std::nullopt;
+      *value = found->second;
+    }
+  }
+  return is_valid(h) ? std::optional(h) : std::nullopt;
 }
 
 bool is_valid(const FieldHyperparameters& h) {

@@ -64,6 +64,8 @@ void treat_bias(SurveyAnalysis& analysis, const SurveyAnalysisOptions& options) 
 
 Result<LearnedHyperparameters> hyperparameters_for(const SurveyAnalysis& analysis,
                                                    const SurveyAnalysisOptions& options) {
+  if (options.harmonic && analysis.model == FieldModel::kGpr)
+    return LearnedHyperparameters{as_independent(*options.harmonic), 0, 0, 0.0, {}};
   if (!options.hyperparameters) {
     LearningOptions learning = options.learning;
     learning.threads = options.threads;
@@ -97,7 +99,12 @@ Predictor predictor_for(const SurveyAnalysis& analysis) {
 
 /// Replaces independent components by the harmonic covariance where that is wanted.
 Result<void> choose_kernel(SurveyAnalysis& analysis, const SurveyAnalysisOptions& options) {
-  if (analysis.model != FieldModel::kGpr || options.kernel == KernelChoice::kSquaredExponential) return {};
+  if (analysis.model != FieldModel::kGpr) return {};
+  if (options.harmonic) {
+    analysis.harmonic = options.harmonic;
+    return {};
+  }
+  if (options.kernel == KernelChoice::kSquaredExponential) return {};
   if (options.hyperparameters) {
     if (options.kernel == KernelChoice::kAuto) return {};
     return Error("hyper-parameters of a squared exponential were given for a harmonic covariance");

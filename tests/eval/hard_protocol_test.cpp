@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -254,6 +255,33 @@ HardRecord short_record(const std::string& world, const std::string& disturbance
   record.first->right = right;
   if (right) record.correct_distance_m = 1.0;
   return record;
+}
+
+TEST(HardCsv, HasAColumnForEachNameAndSaysWhatTheRowsSay) {
+  std::vector<HardRecord> records;
+  for (int run = 0; run < 10; ++run) records.push_back(short_record("loop", "none", run, run < 7));
+  records.front().sample = {*records.front().first};
+  records.front().sample.front().nees = 2.5;
+  EXPECT_EQ(must(record_from_line(to_line(records.front()))).sample.front().nees, 2.5);
+  std::vector<std::vector<std::string>> table;
+  std::istringstream lines(hard_csv(records));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line + ",end");
+    table.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) table.back().push_back(cell);
+  }
+  ASSERT_EQ(table.size(), 1 + hard_rows(records).size());
+  const auto of = [&](const std::string& name) -> std::string {
+    const auto column = std::find(table[0].begin(), table[0].end(), name);
+    return column == table[0].end() ? "absent"
+                                    : table[1][static_cast<std::size_t>(column - table[0].begin())];
+  };
+  for (const auto& row : table) EXPECT_EQ(row.size(), table[0].size());
+  EXPECT_EQ(of("success"), "7");
+  EXPECT_EQ(of("success_of"), "10");
+  EXPECT_EQ(of("correct_distance_m_median"), "1");
+  EXPECT_EQ(of("time_to_fix_s_median"), "") << "no such number";
+  EXPECT_EQ(of("nees_mean"), "2.5");
 }
 
 TEST(HardTrace, LooksAtEachWorldAndAtWhatWentWrong) {

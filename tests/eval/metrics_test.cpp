@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "mstsl/core/angles.hpp"
+#include "mstsl/core/random.hpp"
+#include "mstsl/eval/summary.hpp"
 
 namespace mstsl {
 namespace {
@@ -34,6 +36,33 @@ TEST(EvaluateRun, ARightFirstAnswerIsSuccessAndItsDistanceTheCld) {
   EXPECT_NEAR(run.first()->error.position_m, 0.3, 1e-9);
   EXPECT_FALSE(run.first()->tight);
   EXPECT_TRUE(run.last->tight);
+}
+
+TEST(EvaluateRun, TrueCovariancesGiveTheChiSquareOfThreeAndHalfAsWideOnesFourTimesIt) {
+  Random random(5);
+  Eigen::Matrix3d spread;  // a lower triangle: the error's factor
+  spread << 0.1, 0.0, 0.0, 0.05, 0.08, 0.0, 0.01, -0.02, 0.03;
+  std::vector<JudgedAnswer> answers, boasting;
+  for (int i = 0; i < 3000; ++i) {
+    Estimate estimate = estimate_at(3.0, 0.0);
+    const Eigen::Vector3d error = spread * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    estimate.map_T_base = Pose2::from(Eigen::Vector2d(3.0, 0.0) + error.head<2>(), error.z());
+    estimate.covariance = spread * spread.transpose();
+    answers.push_back(*evaluate_run({estimate}, straight_truth()).first());
+    estimate.covariance /= 4.0;
+    boasting.push_back(*evaluate_run({estimate}, straight_truth()).first());
+  }
+  const Consistency honest = consistency(answers);
+  EXPECT_NEAR(honest.mean_nees, 3.0, 0.15);
+  EXPECT_NEAR(honest.median_nees, 2.37, 0.15);
+  EXPECT_NEAR(honest.within_95.share(), 0.95, 0.015);
+  EXPECT_NEAR(consistency(boasting).mean_nees, 4.0 * honest.mean_nees, 1e-6);
+  EXPECT_LT(consistency(boasting).within_95.share(), 0.5);
+}
+
+TEST(EvaluateRun, WithoutACovarianceThereIsNoNees) {
+  EXPECT_FALSE(evaluate_run({estimate_at(3.0, 0.1)}, straight_truth()).first()->nees);
+  EXPECT_EQ(consistency({*evaluate_run({estimate_at(3.0, 0.1)}, straight_truth()).first()}).poses, 0u);
 }
 
 TEST(EvaluateRun, AWrongFirstAnswerIsNoSuccessThoughTheRightOneFollows) {

@@ -1,29 +1,7 @@
 // Opens a report as a reader would, and holds what it shows against the data that is in it.
 // usage: node open_page.mjs PAGE; exit status 77: there is no Chromium
 import assert from 'node:assert/strict';
-import {existsSync, statSync} from 'node:fs';
-import {chromium} from 'playwright-core';
-
-const program = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
-if (!program) {
-  console.log('skipped: chromium is not installed');
-  process.exit(77);
-}
-const page = process.argv[2];
-assert(statSync(page).size < 10e6, 'a page stays under 10 MB');
-const browser = await chromium.launch({executablePath: program, args: ['--no-sandbox']});
-
-async function opened(colorScheme) {
-  const tab = await browser.newPage({viewport: {width: 1400, height: 900}, colorScheme});
-  const wrong = [];
-  tab.on('console', message => message.type() === 'error' && wrong.push(message.text()));
-  tab.on('pageerror', error => wrong.push(error.stack));
-  tab.on('request', request => /^(file|data|blob):/.test(request.url()) || wrong.push(`asks for ${request.url()}`));
-  await tab.goto('file://' + page);
-  await tab.waitForSelector('body[data-ready]', {timeout: 20000});
-  assert.deepEqual(wrong, []);
-  return [tab, wrong];
-}
+import {browser, opened} from './reader.mjs';
 
 const [tab, wrong] = await opened('light');
 const data = JSON.parse(await tab.textContent('#summary-data'));

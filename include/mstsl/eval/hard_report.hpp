@@ -20,6 +20,7 @@ struct HardRow {
   std::vector<double> correct_distance_m, time_to_fix_s;
   std::vector<double> error_m, error_rad;  ///< of right first answers' runs: thinned answers from there on
   Calibration first_answers, thinned_answers;
+  Consistency covariances;  ///< of the thinned answers that are right
   std::size_t false_alarms = 0, times_lost = 0;
   Rate noticed_3m, recovered_10m, wrong_after_kidnap;  ///< of the kidnapped that were localized before
   std::vector<double> noticed_m, recovered_m;
@@ -31,6 +32,9 @@ std::vector<HardRow> hard_rows(const std::vector<HardRecord>& records);
 
 /// Tables for people.
 std::string hard_text(const std::vector<HardRecord>& records);
+
+/// The rows with all their rates and bounds, for a spreadsheet.
+std::string hard_csv(const std::vector<HardRecord>& records);
 
 /// How the runs came to be: stands at the head of the JSON.
 struct HardHead {

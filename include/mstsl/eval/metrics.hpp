@@ -44,6 +44,9 @@ struct JudgedAnswer {
   PoseError error;
   bool right = false;  ///< within Criteria::success
   bool tight = false;  ///< within Criteria::tight
+  /// Normalised estimation error squared e' P^-1 e of x, y and yaw (Bar-Shalom et al. 2001, 5.4): chi-square
+  /// with 3 degrees of freedom where the covariance P is true. Nothing where P is no covariance.
+  std::optional<double> nees = {};
 };
 
 /// The first set of hypotheses, held against the truth at its stamp (paper Table I).

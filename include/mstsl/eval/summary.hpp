@@ -27,6 +27,17 @@ struct Calibration {
 /// Answers of one run follow from one another, so a calibration over runs takes one answer of each.
 Calibration calibrate(const std::vector<JudgedAnswer>& answers);
 
+/// How true the stated covariances are, over poses that were right.
+struct Consistency {
+  std::size_t poses = 0;     ///< with a covariance
+  double mean_nees = 0.0;    ///< 3 where covariances are true; more: they are too small
+  double median_nees = 0.0;  ///< 2.37 where they are
+  Rate within_95;            ///< of the poses: those with a NEES below the 95 % bound of chi-square, 7.81
+};
+
+/// Poses that are wrong are not judged: what they are worth, the probability says.
+Consistency consistency(const std::vector<JudgedAnswer>& answers);
+
 /// All runs of one method in one world.
 struct Summary {
   std::size_t runs = 0;
@@ -45,6 +56,7 @@ struct Summary {
   Spread correct_distance_m;  ///< CLD of the runs that have one
   Calibration first_answers;  ///< one answer a run
   Calibration all_answers;    ///< every pose published
+  Consistency covariances;    ///< of every right pose published
   std::size_t times_lost = 0;
   std::size_t without_truth = 0;
 };

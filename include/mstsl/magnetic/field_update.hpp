@@ -10,6 +10,7 @@
 #include "mstsl/magnetic/field_check.hpp"
 #include "mstsl/magnetic/field_map.hpp"
 #include "mstsl/magnetic/fingerprint.hpp"
+#include "mstsl/magnetic/survey_analysis.hpp"
 
 namespace mstsl {
 
@@ -65,5 +66,10 @@ struct FieldUpdate {
 /// drive that does not touch the map, a drive that contradicts the map everywhere.
 Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerprint> drives,
                                   const FieldUpdateOptions& options = {});
+
+/// How the updated survey is to be analysed: with the covariance, or the lattice, that the map was made with,
+/// for a few new drives say little of a building's statistics and should not change all of its map; and no
+/// bias removed, for that was done. What the map does not say is learned anew.
+SurveyAnalysisOptions analysis_as_before(const FieldMap& map);
 
 }  // namespace mstsl

@@ -19,6 +19,7 @@
 namespace mstsl {
 
 /// Where the steel is, seen from the magnetometer.
+/// Field maps hold the numbers of these.
 enum class SourceSide : std::uint8_t {
   kBelow,
   kAbove,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct FieldHyperparameters {
 
 /// By name with unit ("length_scale_x_m", "noise_sd_z_uT", ...), as a field map stores them.
 std::map<std::string, double> to_named(const FieldHyperparameters& hyperparameters);
+
+/// What to_named() named; nothing where a name is absent or the values are not valid.
+std::optional<FieldHyperparameters> from_named(const std::map<std::string, double>& named);
 
 /// Whether all are finite, the scales positive: what a regression can work with.
 bool is_valid(const FieldHyperparameters& hyperparameters);

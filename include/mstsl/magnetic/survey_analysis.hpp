@@ -35,6 +35,8 @@ struct SurveyAnalysisOptions {
   /// What the GPR assumes; learned from the fingerprints where absent. Given ones are a squared
   /// exponential's.
   std::optional<FieldHyperparameters> hyperparameters;
+  /// The same for the harmonic covariance, in place of all of these.
+  std::optional<HarmonicHyperparameters> harmonic;
   LearningOptions learning;
   /// Whether the noise is raised from what the marginal likelihood makes of single passes to what predicts
   /// held-out lanes best. Passes over the same floor differ by more than their readings' noise: position,
