@@ -4,7 +4,7 @@
 #
 #   tools/map_update.sh MSTSL OUT
 #
-# Ends with OUT/update.json. docs/results/mapping/update.json is a copy of one.
+# Ends with OUT/update.json. docs/results/update/1014.json is a copy of one.
 set -euo pipefail
 
 [ $# -eq 2 ] || { sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 2; }

@@ -8,7 +8,7 @@ A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Repor
 paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of tools/real_results.sh (real/METHOD_SEED.json), of
 tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, and for
 several methods on the same events baselines/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
-real.json of tools/real_mapping.sh.
+real.json of tools/real_mapping.sh; update/SEED.json of tools/map_update.sh.
 """
 import json
 import math
@@ -206,9 +206,26 @@ def mapping_table():
                   "rms error of the way: median, 95 %, worst (m)"], rows)
 
 
+def update_table():
+    """Errors of drives held against the map as it was and as it was updated, root mean square over axes and drives."""
+    rms = lambda drives: math.sqrt(sum(v * v for d in drives for v in d["drives"][0]["rms_uT"]) / (3 * len(drives)))
+    rows = []
+    for building in reports("update")["1014"]:
+        drives = building["update"]["drives"]
+        driven_m = sum(d["compared_m"] + d["new_ground_m"] for d in drives)
+        better = sum(rms([a]) < rms([b]) for b, a in zip(building["before"], building["after"]))
+        rows.append([building["world"], f"{100 * building['moved']:.0f} %",
+                     f"{sum(d['changed_m'] for d in drives):.1f} m of {driven_m:.0f} m",
+                     str(building["update"]["fingerprints_replaced"]),
+                     f"{rms(building['before']):.2f} uT", f"{rms(building['after']):.2f} uT",
+                     f"{better} of {len(building['before'])}"])
+    return table(["building", "things moved", "called changed", "fingerprints replaced", "error of other drives before",
+                  "after", "drives better foretold"], rows)
+
+
 TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
           "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "mapping": mapping_table,
-          "mapping_real": mapping_real_table}
+          "mapping_real": mapping_real_table, "update": update_table}
 
 
 def main():

@@ -7,6 +7,7 @@
 #include "bench_hard.hpp"
 #include "bench_mapping.hpp"
 #include "bench_paper.hpp"
+#include "bench_real.hpp"
 #include "session.hpp"
 
 namespace mstsl::app {
@@ -19,12 +20,14 @@ struct Wish {
   PaperWish paper;
   HardWish hard;
   MappingWish mapping;
+  RealWish real;
 };
 
 Result<Exit> bench(const Session& session, const Wish& wish) {
   if (wish.protocol == "hard") return bench_hard(session, wish.hard, wish.runs, wish.output);
   if (wish.protocol == "mapping")
     return bench_mapping(session, wish.mapping, wish.hard.worlds, wish.runs, wish.output);
+  if (wish.protocol == "real") return bench_real(session, wish.real, wish.hard.methods, wish.output);
   return bench_paper(session, wish.paper, wish.runs, wish.output);
 }
 
@@ -37,8 +40,9 @@ void add_bench(CLI::App& app, Session& session) {
       ->add_option(
           "--protocol", wish->protocol,
           "paper: ten starts driven ten times each, as in the paper; hard: symmetric buildings and "
-          "whatever disturbs a robot; mapping: maps made from drives, by scans alone and with the field")
-      ->check(CLI::IsMember({"paper", "hard", "mapping"}))
+          "whatever disturbs a robot; mapping: maps made from drives, by scans alone and with the field; "
+          "real: recordings of real buildings")
+      ->check(CLI::IsMember({"paper", "hard", "mapping", "real"}))
       ->capture_default_str();
   command->add_option("-o,--output", wish->output, "Folder for report, tables, runs and curves")->required();
   command->add_option("--runs", wish->runs, "Runs from each start; hard: of each building and case")
@@ -47,6 +51,7 @@ void add_bench(CLI::App& app, Session& session) {
   add_paper_options(*command, wish->paper);
   add_hard_options(*command, wish->hard);
   add_mapping_options(*command, wish->mapping);
+  add_real_options(*command, wish->real);
   add_common_options(*command, session);
   command->callback([wish, &session] { session.work = [wish, &session] { return bench(session, *wish); }; });
 }
