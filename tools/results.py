@@ -210,7 +210,7 @@ def update_table():
     """Errors of drives held against the map as it was and as it was updated, root mean square over axes and drives."""
     rms = lambda drives: math.sqrt(sum(v * v for d in drives for v in d["drives"][0]["rms_uT"]) / (3 * len(drives)))
     rows = []
-    for building in reports("update")["1014"]:
+    for building in reports("update")["1015"]:
         drives = building["update"]["drives"]
         driven_m = sum(d["compared_m"] + d["new_ground_m"] for d in drives)
         better = sum(rms([a]) < rms([b]) for b, a in zip(building["before"], building["after"]))

@@ -11,6 +11,7 @@
 #include "mstsl/io/recording_info.hpp"
 #include "mstsl/localize/localization_maps.hpp"
 #include "mstsl/magnetic/field_map_builder.hpp"
+#include "mstsl/mapping/restart_watch.hpp"
 #include "mstsl/mapping/track_drawer.hpp"
 
 #include "find_start.hpp"
@@ -122,12 +123,23 @@ class DriveMapper {
       anchor = *found;
     }
     bool begun = false;
+    RestartWatch watch;
     const auto played = play_logs(
         session_, drives_[k], play_, step("finding the way", k),
         [&](const io::RecordingHeader& header) { slam_.begin_drive(header.rig, anchor), begun = true; },
-        [&](const SensorEvent& event) { return hand_over(slam_, event), true; });
+        [&](const SensorEvent& event) {
+          hand_over(slam_, event);
+          hand_over(watch, event);
+          return true;
+        });
     if (!played) return played.error();
     for (const std::string& warning : played->warnings) warnings_.push_back(warning);
+    for (const RestartWatch::Jump& jump : watch.jumps())
+      warnings_.push_back(fmt::format(
+          "at {:.1f} s, where odometry begins anew, the field is another by {:.0f} uT: was the robot "
+          "moved meanwhile? Then the map is wrong from there on; logs that do not begin where the one "
+          "before ended are mapped without --continuous",
+          jump.stamp.seconds(), jump.change_uT));
     if (!begun) return Error(name_of(drives_[k]) + ": the log is empty");
     Result<SlamTrack> track = slam_.track();
     if (!track) return track.error().within(name_of(drives_[k]));

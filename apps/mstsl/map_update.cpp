@@ -83,6 +83,7 @@ Result<FieldMap> build(const Session& session, const FieldMap& old, const FieldU
   if (interrupted()) return Error("interrupted; nothing was written");
   made->height_m = old.height_m;
   made->replaced = update.replaced;
+  made->newest_drive = newest_drives(*made, old, survey.fingerprints);
   made->provenance = old.provenance;
   made->provenance.push_back(fmt::format("mstsl {} map update", MSTSL_VERSION));
   for (const SurveyDrive& drive : survey.drives) made->provenance.push_back("log " + drive.name);

@@ -76,8 +76,9 @@ std::string update_report_text(const LocatedDrives& drives, const FieldUpdate& u
         three(drive.base_bias_uT.array(), " uT"));
     text += changes_text(drive);
   }
-  text += fmt::format("{} old fingerprints {} contradicted; {} remain with the new\n", update.replaced_now,
-                      made ? "are" : "would be", update.fingerprints.size());
+  text += fmt::format(
+      "{} old fingerprints {} replaced, {} new ones added; {} new ones only confirm what is known\n",
+      update.replaced_now, made ? "are" : "would be", update.added, update.confirming);
   if (made) text += coverage_text(*made) + drives_text(*made);
   return text;
 }
@@ -92,6 +93,8 @@ std::string update_report_json(const LocatedDrives& drives, const FieldUpdate& u
     json["drives"].push_back(std::move(drive));
   }
   json["fingerprints_replaced"] = update.replaced_now;
+  json["fingerprints_added"] = update.added;
+  json["fingerprints_confirming"] = update.confirming;
   json["fingerprints"] = update.fingerprints.size();
   if (made) json["coverage"] = coverage_json(*made);
   if (made) json["survey"] = drives_json(*made);

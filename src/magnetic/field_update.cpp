@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "drive_comparison.hpp"
+#include "field_area.hpp"
 #include "point_bins.hpp"
 
 namespace mstsl {
@@ -56,6 +57,24 @@ double reach_of(const FieldMap& map) {
   return std::isfinite(reach_m) && reach_m > 0.0 ? reach_m : kUnknown_m;
 }
 
+/// Those of a drive that lie nowhere near what is kept already.
+std::vector<Fingerprint> not_near(std::span<const Fingerprint> drive, const std::vector<Fingerprint>& kept,
+                                  double near_m) {
+  std::vector<Vector2d> positions_m;
+  for (const Fingerprint& f : kept) positions_m.push_back(f.position_m);
+  const PointBins bins(positions_m, near_m);
+  const Vector2d reach = Vector2d::Constant(near_m);
+  std::vector<Fingerprint> found;
+  for (const Fingerprint& f : drive) {
+    bool near = false;
+    bins.for_each_near(f.position_m - reach, f.position_m + reach, [&](std::size_t i) {
+      near = near || (positions_m[i] - f.position_m).norm() < near_m;
+    });
+    if (!near) found.push_back(f);
+  }
+  return found;
+}
+
 std::vector<std::span<const Fingerprint>> by_session(std::span<const Fingerprint> drives) {
   std::vector<std::span<const Fingerprint>> sessions;
   for (std::size_t i = 0; i < drives.size();) {
@@ -89,7 +108,8 @@ Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerpri
   if (map.fingerprints.empty())
     return Error("the map does not hold the fingerprints that it was made from, so it cannot be updated");
   if (drives.empty()) return Error("the new drives hold no fingerprint; is the field's topic the right one?");
-  FieldUpdate update{{}, map.replaced, 0, {}};
+  FieldUpdate update;
+  update.replaced = map.replaced;
   NewDrives added;
   for (const std::span<const Fingerprint> session : by_session(drives)) {
     ComparedDrive drive = compare_drive(map, session, options);
@@ -108,8 +128,34 @@ Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerpri
       update.replaced.push_back({old, by});
   }
   update.replaced_now = update.replaced.size() - map.replaced.size();
-  update.fingerprints.insert(update.fingerprints.end(), added.fingerprints.begin(), added.fingerprints.end());
+  constexpr double kNear = 0.25;  // of a length scale: there the correlation is exp(-1 / 32)
+  for (const std::span<const Fingerprint> session : by_session(added.fingerprints)) {
+    const std::vector<Fingerprint> found = not_near(session, update.fingerprints, kNear * reach_m);
+    update.added += found.size();
+    update.confirming += session.size() - found.size();
+    update.fingerprints.insert(update.fingerprints.end(), found.begin(), found.end());
+  }
   return update;
+}
+
+std::vector<std::int32_t> newest_drives(const FieldMap& made, const FieldMap& before,
+                                        std::span<const Fingerprint> drives) {
+  std::vector<std::int32_t> newest = made.newest_drive;
+  newest.resize(made.geometry.size(), -1);
+  const double reach_m = reach_of(made);
+  for (const std::span<const Fingerprint> session : by_session(drives)) {
+    const std::vector<float> distance_m =
+        distances_to(session, made.geometry, reach_m + made.geometry.resolution_m);
+    for (std::size_t i = 0; i < newest.size(); ++i)
+      if (made.supported[i] != 0 && distance_m[i] <= reach_m)
+        newest[i] = std::max(newest[i], session.front().session);
+  }
+  for (std::size_t i = 0; i < newest.size() && !before.newest_drive.empty(); ++i) {
+    const Cell was = before.geometry.cell_at(made.geometry.center_of(made.geometry.cell(i)));
+    if (made.supported[i] != 0 && before.geometry.contains(was))
+      newest[i] = std::max(newest[i], before.newest_drive[before.geometry.index(was)]);
+  }
+  return newest;
 }
 
 SurveyAnalysisOptions analysis_as_before(const FieldMap& map) {

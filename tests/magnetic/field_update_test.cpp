@@ -66,7 +66,8 @@ TEST(FieldUpdate, WhereNothingChangedNothingIsReplacedAndTheBiasIsFound) {
   EXPECT_LT((update.drives[0].base_bias_uT - bias).norm(), 0.3);
   EXPECT_TRUE(update.drives[0].changes.empty());
   EXPECT_EQ(update.replaced_now, 0U);
-  EXPECT_EQ(update.fingerprints.size(), room.map.fingerprints.size() + 360);
+  EXPECT_EQ(update.fingerprints.size(), room.map.fingerprints.size() + update.added);
+  EXPECT_EQ(update.added + update.confirming, 360U);
   EXPECT_NEAR(update.drives[0].compared_m + update.drives[0].new_m, 2 * 8.95, 0.1);
 }
 
@@ -84,7 +85,7 @@ TEST(FieldUpdate, WhatACupboardChangedIsReplacedAndTheNewMapIsRight) {
     EXPECT_EQ(r.by_session, 1);
     EXPECT_LT((r.fingerprint.position_m - cupboard_m).norm(), 3.0);
   }
-  EXPECT_EQ(update.replaced.size() + update.fingerprints.size(), room.map.fingerprints.size() + drive.size());
+  EXPECT_EQ(update.replaced.size() + update.fingerprints.size(), room.map.fingerprints.size() + update.added);
 
   const FieldMap updated = Room::made_of(
       update.fingerprints, {{"survey.mcap", Stamp{0}, Stamp{1}}, {"later.mcap", Stamp{2}, Stamp{3}}});
@@ -102,6 +103,37 @@ TEST(FieldUpdate, WhatACupboardChangedIsReplacedAndTheNewMapIsRight) {
   const Cell beside = updated.geometry.cell_at({5.0, 2.25}), corner = updated.geometry.cell_at({1.0, 5.8});
   EXPECT_EQ(updated.newest_drive[updated.geometry.index(beside)], 1);
   EXPECT_EQ(updated.newest_drive[updated.geometry.index(corner)], 0);
+}
+
+TEST(FieldUpdate, DrivenEveryDayTheMapDoesNotGrow) {
+  Room room = Room::surveyed();
+  FieldUpdate update = must(update_survey(room.map, room.later_drive(2.02, {1.0, 0.0, 0.0})));
+  EXPECT_EQ(update.added, 0U) << "along a lane of the survey";
+  EXPECT_EQ(update.fingerprints.size(), room.map.fingerprints.size());
+  // Away from all lanes there is something to learn, once.
+  std::vector<Fingerprint> beside = room.later_drive(6.4, {1.0, 0.0, 0.0});
+  std::vector<Fingerprint> along = room.later_drive(5.9, {1.0, 0.0, 0.0});
+  along.insert(along.end(), beside.begin(), beside.end());
+  update = must(update_survey(room.map, along));
+  EXPECT_GT(update.added, 50U);
+  FieldMap second = room.map;
+  second.fingerprints = update.fingerprints;
+  for (Fingerprint& f : along) f.position_m.y() += 0.01;
+  EXPECT_EQ(must(update_survey(second, along)).added, 0U);
+}
+
+TEST(FieldUpdate, ConfirmationCountsAsHavingBeenThere) {
+  Room room = Room::surveyed();
+  FieldMap made = room.map;
+  made.drives.push_back({"later.mcap", Stamp{2}, Stamp{3}});
+  const std::vector<std::int32_t> newest =
+      newest_drives(made, room.map, room.later_drive(2.0, {0.0, 0.0, 0.0}));
+  EXPECT_EQ(newest[made.geometry.index(made.geometry.cell_at({5.0, 2.0}))], 1);
+  EXPECT_EQ(newest[made.geometry.index(made.geometry.cell_at({5.0, 5.5}))], 0);
+  // And is remembered by the map made from that one.
+  FieldMap later = made;
+  later.newest_drive = newest;
+  EXPECT_EQ(newest_drives(made, later, {}), newest);
 }
 
 TEST(FieldUpdate, ADriveOfAnotherBuildingIsRefused) {

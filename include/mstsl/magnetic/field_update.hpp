@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -51,21 +52,30 @@ struct DriveComparison {
 
 /// A map's survey brought up to date by drives that are newer than all of it.
 struct FieldUpdate {
-  std::vector<Fingerprint> fingerprints;      ///< what still holds, then the new: what the new map is made of
+  std::vector<Fingerprint> fingerprints;      ///< what the new map is made of: what still holds, what is new
   std::vector<ReplacedFingerprint> replaced;  ///< now and before
   std::size_t replaced_now = 0;
+  std::size_t added = 0;                ///< new fingerprints among them
+  std::size_t confirming = 0;           ///< new ones that say what the map knows already, and are not kept
   std::vector<DriveComparison> drives;  ///< by session, from the first new one on
 };
 
-/// Compares drives with a map and merges them: where they find the field that the map foretells, both count;
-/// where a stretch contradicts it, the old fingerprints that lie nearer to it than to any other of the new
-/// ones, and not further than the field's length scale, are taken out and kept as replaced. A constant bias
-/// of each drive's magnetometer against the map is estimated (robustly) and taken from it.
+/// Compares drives with a map and merges them. Where a stretch contradicts the map, the old fingerprints that
+/// lie nearer to it than to any other of the new ones, and not further than the field's length scale, are
+/// taken out and kept as replaced. New fingerprints are added where none that still holds lies within a
+/// quarter of that length: nearer, the field is the same to 3 % and a tracked place is worth less than a
+/// surveyed one; so a place that is driven every day does not make the map grow. A constant bias of each
+/// drive's magnetometer against the map is estimated (robustly) and taken from it.
 ///
 /// `drives` are finite; their sessions count on from the map's. Errors: a map without its fingerprints, a
 /// drive that does not touch the map, a drive that contradicts the map everywhere.
 Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerprint> drives,
                                   const FieldUpdateOptions& options = {});
+
+/// Which drive came last to each cell: what `made` says of the fingerprints that it is made of, what the map
+/// before said, and the drives, also where they only confirmed it.
+std::vector<std::int32_t> newest_drives(const FieldMap& made, const FieldMap& before,
+                                        std::span<const Fingerprint> drives);
 
 /// How the updated survey is to be analysed: with the covariance, or the lattice, that the map was made with,
 /// for a few new drives say little of a building's statistics and should not change all of its map; and no
