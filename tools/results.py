@@ -5,7 +5,8 @@
     tools/results.py --check   exit 1 if they are not what the reports say
 
 A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Reports are those of `mstsl bench --protocol
-paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of tools/real_results.sh (real/METHOD_SEED.json), of
+paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of `mstsl bench --protocol real` (real.json, as
+real/METHOD_SEED.json), of
 tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, and for
 several methods on the same events baselines/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
 real.json of tools/real_mapping.sh; update/SEED.json of tools/map_update.sh.

@@ -15,7 +15,8 @@
 
 namespace mstsl::app {
 
-/// Where on known maps a drive was at the first time that the joint method was sure of it.
+/// Where on known maps a drive was at the first time that the joint method was sure of it, and stayed so for
+/// the 10 m that followed (or to the drive's end).
 struct FoundStart {
   Anchor anchor;
   double travelled_m = 0.0;  ///< until then

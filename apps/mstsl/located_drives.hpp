@@ -18,11 +18,12 @@ namespace mstsl::app {
 /// Drives through a mapped building: what they measured where, and how they were found.
 struct LocatedDrives {
   SurveyLogs survey;
-  std::vector<FoundStart> found;  ///< of each log; none where the user or the logs said where they were
+  std::vector<FoundStart> found;  ///< of each log found; none where the user or the logs said where they were
 };
 
 /// Finds each log on the maps by the joint method, then tracks it from there to its end; what it measured
-/// before it was found is left out. Errors: a log that cannot be read, found or tracked; an interrupt.
+/// before it was found is left out, and so is, with a warning, a log that is not found. Errors: logs of which
+/// none is found, one that cannot be read or tracked; an interrupt.
 Result<LocatedDrives> locate_drives(const Session& session, const std::vector<std::filesystem::path>& logs,
                                     const io::PlayOptions& play, const OccupancyGrid& occupancy,
                                     const FieldMap& field);

@@ -136,7 +136,7 @@ void add_map_update(CLI::App& map, Session& session) {
   command->add_option("--field", wish->field, "Field map to be brought up to date, NetCDF")->required();
   command->add_option("-o,--output", wish->output,
                       "The new field map; may be the old one's name. Without it changes are only reported");
-  command->add_option("--picture", wish->picture, "Also a picture of it, PNG or SVG")->needs("--output");
+  command->add_option("--picture", wish->picture, "Also a picture of what changed where, PNG or SVG");
   auto* poses = command->add_option_group(
       "poses", "Where the robot was; without either the joint method finds it on the maps");
   poses->add_option("--pose-topic", wish->play.topics.pose, "Topic with the robot's poses in the map");

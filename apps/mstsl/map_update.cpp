@@ -11,7 +11,7 @@
 #include "mstsl/io/map_server.hpp"
 #include "mstsl/magnetic/field_map_builder.hpp"
 #include "mstsl/magnetic/field_update.hpp"
-#include "mstsl/viz/field_sheet.hpp"
+#include "mstsl/viz/picture.hpp"
 
 #include "calibration_option.hpp"
 #include "interrupt.hpp"
@@ -83,18 +83,32 @@ Result<FieldMap> build(const Session& session, const FieldMap& old, const FieldU
   if (interrupted()) return Error("interrupted; nothing was written");
   made->height_m = old.height_m;
   made->replaced = update.replaced;
-  made->newest_drive = newest_drives(*made, old, survey.fingerprints);
+  std::vector<Fingerprint> used = survey.fingerprints;
+  for (const DriveComparison& drive : update.drives)
+    if (!drive.refused.empty())
+      std::erase_if(used, [&](const Fingerprint& f) { return f.session == drive.session; });
+  made->newest_drive = newest_drives(*made, old, used);
   made->provenance = old.provenance;
   made->provenance.push_back(fmt::format("mstsl {} map update", MSTSL_VERSION));
   for (const SurveyDrive& drive : survey.drives) made->provenance.push_back("log " + drive.name);
   return made;
 }
 
-Result<void> write(const UpdateWish& wish, const OccupancyGrid& occupancy, const FieldMap& made) {
-  if (auto written = io::write_field_map(made, *wish.output); !written) return written;
-  if (!wish.picture) return {};
-  return viz::draw_field(occupancy, made, "Magnetic field of " + wish.map.filename().string())
-      .save(*wish.picture);
+/// The field, and where it is no longer what it was.
+Result<void> draw_changes(const UpdateWish& wish, const OccupancyGrid& occupancy, const FieldMap& field,
+                          const FieldUpdate& update) {
+  viz::RunPicture picture;
+  picture.title = fmt::format("What changed in {}", wish.map.filename().string());
+  picture.field = &field;
+  std::size_t changes = 0;
+  for (const DriveComparison& drive : update.drives)
+    for (const FieldChange& change : drive.changes) {
+      ++changes;
+      picture.places.push_back({change.center_m, fmt::format("{:.1f} uT", change.rms_uT.matrix().norm())});
+    }
+  picture.subtitle = fmt::format("{} stretches along {} drives, by how much the field differs there", changes,
+                                 update.drives.size());
+  return viz::draw_run(occupancy, picture).save(*wish.picture);
 }
 
 }  // namespace
@@ -119,17 +133,24 @@ Result<Exit> map_update(const Session& session, const UpdateWish& wish) {
   for (Fingerprint& f : drives->survey.fingerprints) f.session += static_cast<int>(field->drives.size());
   const auto update = update_survey(*field, drives->survey.fingerprints);
   if (!update) return update.error().within(wish.field.string());
+  const std::size_t first = field->drives.size();
+  for (const DriveComparison& drive : update->drives)
+    if (!drive.refused.empty())
+      warn(session, {fmt::format("{} is left out: {}", name_of(*drives, drive, first), drive.refused)});
   std::optional<FieldMap> made;
   if (wish.output) {
     auto built = build(session, *field, *update, drives->survey, occupancy->grid);
     if (!built) return built.error().within(wish.field.string());
     made = std::move(built).value();
-    if (auto written = write(wish, occupancy->grid, *made); !written) return written.error();
+    if (auto written = io::write_field_map(*made, *wish.output); !written) return written.error();
   }
+  if (wish.picture)
+    if (auto drawn = draw_changes(wish, occupancy->grid, made ? *made : *field, *update); !drawn)
+      return drawn.error();
   if (session.json)
-    fmt::print("{}", update_report_json(*drives, *update, made));
+    fmt::print("{}", update_report_json(*drives, *update, made, first));
   else if (!session.quiet)
-    fmt::print("{}{}\n", update_report_text(*drives, *update, made),
+    fmt::print("{}{}\n", update_report_text(*drives, *update, made, first),
                made ? "written to " + wish.output->string() : "nothing was written; give -o for a new map");
   return Exit::kDone;
 }

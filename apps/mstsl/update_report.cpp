@@ -62,13 +62,18 @@ nlohmann::ordered_json to_json(const DriveComparison& drive) {
 
 }  // namespace
 
+std::string name_of(const LocatedDrives& drives, const DriveComparison& drive, std::size_t first) {
+  return drives.survey.drives[static_cast<std::size_t>(drive.session) - first].name;
+}
+
 std::string update_report_text(const LocatedDrives& drives, const FieldUpdate& update,
-                               const std::optional<FieldMap>& made) {
+                               const std::optional<FieldMap>& made, std::size_t first) {
   std::string text;
-  for (std::size_t i = 0; i < update.drives.size(); ++i) {
-    const DriveComparison& drive = update.drives[i];
-    text += drives.survey.drives[i].name + "\n";
-    if (!drives.found.empty()) text += found_text(drives.found[i]);
+  for (const DriveComparison& drive : update.drives) {
+    if (!drive.refused.empty()) continue;  // a warning says so
+    text += name_of(drives, drive, first) + "\n";
+    if (!drives.found.empty())
+      text += found_text(drives.found[static_cast<std::size_t>(drive.session) - first]);
     text += fmt::format(
         "  {:.1f} m over known ground, {:.1f} m over new; foretold with rms {}, typically {:.1f} standard "
         "deviations; bias against the map {}\n",
@@ -84,12 +89,14 @@ std::string update_report_text(const LocatedDrives& drives, const FieldUpdate& u
 }
 
 std::string update_report_json(const LocatedDrives& drives, const FieldUpdate& update,
-                               const std::optional<FieldMap>& made) {
+                               const std::optional<FieldMap>& made, std::size_t first) {
   nlohmann::ordered_json json{{"drives", nlohmann::ordered_json::array()}};
-  for (std::size_t i = 0; i < update.drives.size(); ++i) {
-    nlohmann::ordered_json drive{{"log", drives.survey.drives[i].name}};
-    if (!drives.found.empty()) drive["found_after_m"] = drives.found[i].travelled_m;
-    drive.update(to_json(update.drives[i]));
+  for (const DriveComparison& compared : update.drives) {
+    nlohmann::ordered_json drive{{"log", name_of(drives, compared, first)}};
+    if (!drives.found.empty())
+      drive["found_after_m"] = drives.found[static_cast<std::size_t>(compared.session) - first].travelled_m;
+    drive["refused"] = compared.refused;
+    drive.update(to_json(compared));
     json["drives"].push_back(std::move(drive));
   }
   json["fingerprints_replaced"] = update.replaced_now;

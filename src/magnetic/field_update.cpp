@@ -86,19 +86,17 @@ std::vector<std::span<const Fingerprint>> by_session(std::span<const Fingerprint
   return sessions;
 }
 
-std::optional<Error> refusal(const DriveComparison& drive, const FieldUpdateOptions& options,
-                             const std::string& name) {
+/// Why a drive cannot be used; empty where it can.
+std::string refusal(const DriveComparison& drive, const FieldUpdateOptions& options) {
   if (drive.check.score.errors == 0)
-    return Error(name + " does not come near anything that the map was made from; nothing can be compared");
-  if (drive.unexplained > options.unexplained_share)
-    return Error(
-        fmt::format("{} contradicts the map nearly everywhere (its errors are typically {:.0f} % of the "
-                    "field's own changes "
-                    "along it): is it another building, another mounting of the magnetometer, a calibration "
-                    "forgotten? If "
-                    "all has changed, make the map anew",
-                    name, 100 * std::sqrt(drive.unexplained)));
-  return std::nullopt;
+    return "it does not come near anything that the map was made from; nothing can be compared";
+  if (drive.unexplained <= options.unexplained_share) return {};
+  return fmt::format(
+      "it contradicts the map nearly everywhere (its errors are typically {:.0f} % of the field's own "
+      "changes "
+      "along it): was it found at the right place, is it another building, another mounting of the "
+      "magnetometer, a calibration forgotten? If all has changed, make the map anew",
+      100 * std::sqrt(drive.unexplained));
 }
 
 }  // namespace
@@ -113,11 +111,14 @@ Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerpri
   NewDrives added;
   for (const std::span<const Fingerprint> session : by_session(drives)) {
     ComparedDrive drive = compare_drive(map, session, options);
-    const std::string name = fmt::format("drive {}", update.drives.size() + 1);
-    if (auto error = refusal(drive.comparison, options, name)) return *std::move(error);
+    drive.comparison.session = session.front().session;
+    drive.comparison.refused = refusal(drive.comparison, options);
     update.drives.push_back(drive.comparison);
-    added.add(std::move(drive));
+    if (drive.comparison.refused.empty()) added.add(std::move(drive));
   }
+  if (added.fingerprints.empty())
+    return Error(fmt::format("the {}drive cannot be used: {}", update.drives.size() > 1 ? "first " : "",
+                             update.drives.front().refused));
   const double reach_m = reach_of(map);
   const PointBins bins(added.positions_m, reach_m);
   for (const Fingerprint& old : map.fingerprints) {

@@ -145,6 +145,18 @@ TEST(FieldUpdate, ADriveOfAnotherBuildingIsRefused) {
   const auto update = update_survey(room.map, drive);
   ASSERT_FALSE(update);
   EXPECT_NE(update.error().message().find("contradicts the map nearly everywhere"), std::string::npos);
+  // With another that does not, it is left out.
+  std::vector<Fingerprint> both = drive;
+  for (Fingerprint& f : both) f.session = 2;
+  const std::vector<Fingerprint> good = room.later_drive(2.25, Eigen::Vector3d::Zero());
+  both.insert(both.begin(), good.begin(), good.end());
+  const FieldUpdate without = must(update_survey(room.map, both));
+  ASSERT_EQ(without.drives.size(), 2U);
+  EXPECT_TRUE(without.drives[0].refused.empty());
+  EXPECT_EQ(without.drives[1].session, 2);
+  EXPECT_FALSE(without.drives[1].refused.empty());
+  EXPECT_EQ(without.replaced_now, 0U);
+  for (const Fingerprint& f : without.fingerprints) EXPECT_NE(f.session, 2);
 }
 
 TEST(FieldUpdate, ADriveBesideTheMapIsRefusedAndSoIsAMapWithoutItsSurvey) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -38,6 +39,7 @@ struct FieldChange {
 
 /// What a drive says of a map that was made without it.
 struct DriveComparison {
+  int session = 0;
   FieldCheck check;  ///< with the bias taken out
   Eigen::Vector3d base_bias_uT =
       Eigen::Vector3d::Zero();  ///< of its magnetometer against the map's, in the base's frame
@@ -48,6 +50,7 @@ struct DriveComparison {
   double unexplained = 0.0;   ///< median square of the error by the median square of the foretold field's
                               ///< departure from its mean
   std::vector<FieldChange> changes;
+  std::string refused;  ///< why the drive is not used; empty where it is
 };
 
 /// A map's survey brought up to date by drives that are newer than all of it.
@@ -67,8 +70,9 @@ struct FieldUpdate {
 /// surveyed one; so a place that is driven every day does not make the map grow. A constant bias of each
 /// drive's magnetometer against the map is estimated (robustly) and taken from it.
 ///
-/// `drives` are finite; their sessions count on from the map's. Errors: a map without its fingerprints, a
-/// drive that does not touch the map, a drive that contradicts the map everywhere.
+/// `drives` are finite; their sessions count on from the map's. Errors: a map without its fingerprints;
+/// drives of which none can be used. A drive that does not touch the map, or contradicts it everywhere, is
+/// left out (DriveComparison::refused says why) as long as there is another.
 Result<FieldUpdate> update_survey(const FieldMap& map, std::span<const Fingerprint> drives,
                                   const FieldUpdateOptions& options = {});
 
