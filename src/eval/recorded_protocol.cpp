@@ -1,5 +1,6 @@
 #include "mstsl/eval/recorded_protocol.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -7,7 +8,6 @@
 #include <utility>
 
 #include "mstsl/eval/run_loop.hpp"
-#include "mstsl/magnetic/field_map_builder.hpp"
 #include "mstsl/magnetic/fingerprint_collector.hpp"
 
 namespace mstsl {
@@ -34,8 +34,16 @@ struct Setting {
   std::vector<LocalizerFactory> methods;
 };
 
+std::optional<Error> refusal(const RecordedCase& recorded, const RecordedOptions& options) {
+  if (recorded.surveys.empty() || recorded.runs.empty() || options.methods.empty())
+    return Error(recorded.name + " has no survey, no run, or no method to be tried");
+  for (const std::string& method : options.methods)
+    if (std::ranges::count(method_names(), method) == 0) return Error("there is no method '" + method + "'");
+  return std::nullopt;
+}
+
 Result<Setting> prepare(const RecordedCase& recorded, const RecordedOptions& options) {
-  FieldMapOptions build;
+  FieldMapOptions build = options.field;
   build.threads = options.threads;
   Result<FieldMap> field = build_field_map(fingerprints_of(recorded.surveys), &recorded.map, build);
   if (!field) return field.error();
@@ -83,8 +91,7 @@ Played play(const RecordedLog& run, const Setting& setting, const RecordedOption
 }  // namespace
 
 Result<RecordedOutcome> run_recorded_case(const RecordedCase& recorded, const RecordedOptions& options) {
-  if (recorded.surveys.empty() || recorded.runs.empty() || options.methods.empty())
-    return Error(recorded.name + " has no survey, no run, or no method to be tried");
+  if (auto error = refusal(recorded, options)) return *std::move(error);
   const Result<Setting> setting = prepare(recorded, options);
   if (!setting) return setting.error().within(recorded.name);
   std::vector<Played> played(recorded.runs.size());

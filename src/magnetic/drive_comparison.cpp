@@ -127,6 +127,21 @@ std::vector<double> stretch_errors(const std::vector<Compared>& compared, const 
   return means;
 }
 
+/// 1 where an error is over the limit, and beside such places where it is still over a quarter of it (half as
+/// many standard deviations): what moved is felt beyond where it is beyond doubt.
+std::vector<std::uint8_t> over_limit(const std::vector<double>& errors, double limit) {
+  std::vector<std::uint8_t> over(errors.size(), 0);
+  const auto spread = [&](std::size_t i, bool& beside) {
+    beside = errors[i] > limit || (beside && errors[i] > 0.25 * limit);
+    if (beside) over[i] = 1;
+  };
+  bool beside = false;
+  for (std::size_t i = 0; i < errors.size(); ++i) spread(i, beside);
+  beside = false;
+  for (std::size_t i = errors.size(); i-- > 0;) spread(i, beside);
+  return over;
+}
+
 FieldChange describe(std::span<const Compared> stretch, std::span<const Fingerprint> drive,
                      const std::vector<double>& way_m, const Vector3d& bias) {
   FieldChange change;
@@ -170,7 +185,8 @@ ComparedDrive compare_drive(const FieldMap& map, std::span<const Fingerprint> dr
     comparison.usual_sigmas = std::sqrt(usual);
     comparison.unexplained = unexplained_share(compared, bias);
     const double limit = options.changed_sigmas * options.changed_sigmas * std::max(1.0, usual);
-    for (std::size_t i = 0; i < compared.size(); ++i) result.changed[compared[i].index] = errors[i] > limit;
+    const std::vector<std::uint8_t> over = over_limit(errors, limit);
+    for (std::size_t i = 0; i < compared.size(); ++i) result.changed[compared[i].index] = over[i];
     comparison.changes = changes_of(compared, result.changed, drive, way_m, bias);
     for (Fingerprint& f : result.fingerprints) f.field_uT -= f.map_R_base() * bias;
   }

@@ -20,7 +20,7 @@ using test::must;
 RecordedCase corridor() {
   const Random random(51);
   sim::WorldOptions size;
-  size.size_m = {30.0, 16.0};
+  size.size_m = {24.0, 14.0};
   const auto world =
       std::make_shared<const sim::World>(must(sim::make_world("corridor", size, random.fork(0))));
   RecordedCase recorded{"corridor", sim::occupancy_map(*world), {}, {}};
@@ -39,10 +39,18 @@ RecordedCase corridor() {
   return recorded;
 }
 
+/// A field map that is quickly made.
+RecordedOptions quick(std::vector<std::string> methods) {
+  RecordedOptions options;
+  options.methods = std::move(methods);
+  options.field.resolution_m = 0.2;
+  options.field.analysis.kernel = KernelChoice::kSquaredExponential;
+  return options;
+}
+
 TEST(RecordedProtocol, PlaysEveryRunToAllMethodsTheSameAtAnyNumberOfThreads) {
   const RecordedCase recorded = corridor();
-  RecordedOptions options;
-  options.methods = {"joint", "global-scan"};
+  RecordedOptions options = quick({"joint", "global-scan"});
   options.threads = {1};
   const RecordedOutcome one = must(run_recorded_case(recorded, options));
   options.threads = {2};
@@ -69,10 +77,8 @@ TEST(RecordedProtocol, PlaysEveryRunToAllMethodsTheSameAtAnyNumberOfThreads) {
 
 TEST(RecordedProtocol, SaysWhatIsMissingAndEndsWhenAsked) {
   RecordedCase recorded = corridor();
-  RecordedOptions options;
-  options.methods = {"guess"};
-  EXPECT_FALSE(run_recorded_case(recorded, options));
-  options.methods = {"global-scan"};
+  EXPECT_FALSE(run_recorded_case(recorded, quick({"guess"})));
+  RecordedOptions options = quick({"global-scan"});
   options.progress = [](double) { return false; };
   const auto ended = run_recorded_case(recorded, options);
   ASSERT_FALSE(ended);

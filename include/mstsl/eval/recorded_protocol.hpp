@@ -11,6 +11,7 @@
 #include "mstsl/eval/run_trace.hpp"
 #include "mstsl/grid/occupancy_grid.hpp"
 #include "mstsl/localize/methods.hpp"
+#include "mstsl/magnetic/field_map_builder.hpp"
 #include "mstsl/sim/drive.hpp"
 
 namespace mstsl {
@@ -31,6 +32,7 @@ struct RecordedCase {
 struct RecordedOptions {
   std::vector<std::string> methods{"two-step", "joint"};
   MethodOptions method;
+  FieldMapOptions field;
   Threads threads;
   /// Called now and then, by one thread at a time; false ends it.
   std::function<bool(double share)> progress;
