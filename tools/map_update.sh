@@ -4,13 +4,13 @@
 #
 #   tools/map_update.sh MSTSL OUT
 #
-# Ends with OUT/update.json. docs/results/update/1015.json is a copy of one.
+# Ends with OUT/update.json. docs/results/update/1016.json is a copy of one.
 set -euo pipefail
 
 [ $# -eq 2 ] || { sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 mstsl=$1 out=$2
 mkdir -p "$out"
-seed=1015
+seed=1016
 
 held_against() {  # held_against FOLDER FIELD: the reports of the drives 08 to 15
   local separator='[' drive

@@ -208,20 +208,21 @@ def mapping_table():
 
 
 def update_table():
-    """Errors of drives held against the map as it was and as it was updated, root mean square over axes and drives."""
-    rms = lambda drives: math.sqrt(sum(v * v for d in drives for v in d["drives"][0]["rms_uT"]) / (3 * len(drives)))
+    """Drives held against a map as it was and as it was updated: root mean square error over axes, median over drives."""
+    rms = lambda drive: math.sqrt(sum(v * v for v in drive["drives"][0]["rms_uT"]) / 3)
     rows = []
-    for building in reports("update")["1015"]:
+    for building in reports("update")["1016"]:
         drives = building["update"]["drives"]
         driven_m = sum(d["compared_m"] + d["new_ground_m"] for d in drives)
-        better = sum(rms([a]) < rms([b]) for b, a in zip(building["before"], building["after"]))
+        before, after = [rms(d) for d in building["before"]], [rms(d) for d in building["after"]]
+        better = sum(a < 0.95 * b for b, a in zip(before, after))
+        worse = sum(a > 1.05 * b for b, a in zip(before, after))
         rows.append([building["world"], f"{100 * building['moved']:.0f} %",
                      f"{sum(d['changed_m'] for d in drives):.1f} m of {driven_m:.0f} m",
                      str(building["update"]["fingerprints_replaced"]),
-                     f"{rms(building['before']):.2f} uT", f"{rms(building['after']):.2f} uT",
-                     f"{better} of {len(building['before'])}"])
-    return table(["building", "things moved", "called changed", "fingerprints replaced", "error of other drives before",
-                  "after", "drives better foretold"], rows)
+                     f"{quantile(before, 0.5):.2f} uT, {quantile(after, 0.5):.2f} uT", f"{better}, {worse} of {len(before)}"])
+    return table(["building", "things moved", "called changed", "fingerprints replaced",
+                  "median error of other drives before, after", "better, worse by 5 %"], rows)
 
 
 TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,

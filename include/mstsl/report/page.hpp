@@ -14,9 +14,9 @@ namespace mstsl::report {
 struct Page {
   std::string title;
   std::string subtitle;
-  std::string summary_json;    ///< tables and curves of a protocol, as hard_summary() gives them
-  std::vector<RunTrace> runs;  ///< to be replayed; each must have a place
-  std::string paper_json = {};      ///< the paper's tables and curves, as paper_summary() gives them
+  std::string summary_json;     ///< tables and curves of a protocol, as hard_summary() gives them
+  std::vector<RunTrace> runs;   ///< to be replayed; each must have a place
+  std::string paper_json = {};  ///< the paper's tables and curves, as paper_summary() gives them
 };
 
 /// The page as one HTML file that needs neither server nor network: style, program and data are in it. Runs
