@@ -20,7 +20,7 @@ using test::must;
 RecordedCase corridor() {
   const Random random(51);
   sim::WorldOptions size;
-  size.size_m = {24.0, 14.0};
+  size.size_m = {30.0, 16.0};
   const auto world =
       std::make_shared<const sim::World>(must(sim::make_world("corridor", size, random.fork(0))));
   RecordedCase recorded{"corridor", sim::occupancy_map(*world), {}, {}};
