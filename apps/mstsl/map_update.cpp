@@ -100,14 +100,17 @@ Result<void> draw_changes(const UpdateWish& wish, const OccupancyGrid& occupancy
   viz::RunPicture picture;
   picture.title = fmt::format("What changed in {}", wish.map.filename().string());
   picture.field = &field;
-  std::size_t changes = 0;
-  for (const DriveComparison& drive : update.drives)
+  std::size_t changes = 0, drives = 0;
+  for (const DriveComparison& drive : update.drives) {
+    if (!drive.refused.empty()) continue;
+    ++drives;
     for (const FieldChange& change : drive.changes) {
       ++changes;
       picture.places.push_back({change.center_m, fmt::format("{:.1f} uT", change.rms_uT.matrix().norm())});
     }
-  picture.subtitle = fmt::format("{} stretches along {} drives, by how much the field differs there", changes,
-                                 update.drives.size());
+  }
+  picture.subtitle =
+      fmt::format("{} stretches along {} drives, by how much the field differs there", changes, drives);
   return viz::draw_run(occupancy, picture).save(*wish.picture);
 }
 

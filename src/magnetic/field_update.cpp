@@ -88,13 +88,13 @@ std::vector<std::span<const Fingerprint>> by_session(std::span<const Fingerprint
 
 /// Why a drive cannot be used; empty where it can.
 std::string refusal(const DriveComparison& drive, const FieldUpdateOptions& options) {
-  if (drive.check.score.errors == 0)
+  if (drive.compared_m <=
+      0.0)  // a guess of the map's, where nothing was surveyed, is none to be held against
     return "it does not come near anything that the map was made from; nothing can be compared";
   if (drive.unexplained <= options.unexplained_share) return {};
   return fmt::format(
       "it contradicts the map nearly everywhere (its errors are typically {:.0f} % of the field's own "
-      "changes "
-      "along it): was it found at the right place, is it another building, another mounting of the "
+      "changes along it): was it found at the right place, is it another building, another mounting of the "
       "magnetometer, a calibration forgotten? If all has changed, make the map anew",
       100 * std::sqrt(drive.unexplained));
 }

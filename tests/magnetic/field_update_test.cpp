@@ -166,6 +166,9 @@ TEST(FieldUpdate, ADriveBesideTheMapIsRefusedAndSoIsAMapWithoutItsSurvey) {
   bare.fingerprints.clear();
   EXPECT_FALSE(update_survey(bare, drive));
   EXPECT_FALSE(update_survey(room.map, {}));
+  FieldMap guessed = room.map;  // values, but nothing surveyed to be held against
+  std::ranges::fill(guessed.supported, std::uint8_t{0});
+  EXPECT_FALSE(update_survey(guessed, drive));
   for (Fingerprint& f : drive) f.position_m.x() += 100.0;
   const auto update = update_survey(room.map, drive);
   ASSERT_FALSE(update);
