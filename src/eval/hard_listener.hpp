@@ -5,14 +5,12 @@
 
 #include "mstsl/eval/hard_record.hpp"
 #include "mstsl/eval/run_loop.hpp"
+#include "mstsl/eval/run_trace.hpp"
 
 namespace mstsl {
 
 /// CPU time of this thread, ms.
 double thread_cpu_ms();
-
-/// Whether everything that is to be seen of a run is kept. A long run's hypotheses would fill the memory.
-enum class Traced { kNo, kYes };
 
 /// One method listening to a run: its estimates and what they cost.
 class HardListener {
@@ -24,7 +22,7 @@ class HardListener {
   const std::vector<Estimate>& estimates() const { return estimates_; }
   double cpu_ms() const { return cpu_ms_; }
 
-  /// Everything but key, options and build. `set_down`: when it stood elsewhere, if it was carried.
+  /// Everything but key and options. `set_down`: when it stood elsewhere, if it was carried.
   HardRecord record(const Trajectory& truth, std::optional<Stamp> set_down) const;
 
  private:

@@ -1,16 +1,16 @@
 #include "mstsl/eval/hard_protocol.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "hard_run.hpp"
 #include "hard_site.hpp"
-#include "hard_store.hpp"
+#include "piece_store.hpp"
+#include "piecework.hpp"
 
 namespace mstsl {
 namespace {
@@ -30,7 +30,11 @@ struct Group {
   std::vector<Task> tasks;
 };
 
-std::vector<Group> groups_of(const HardProtocolOptions& options, const HardStore& store) {
+std::string piece_name(const HardKey& key) {
+  return fmt::format("{} {} {} {} {}", key.set, key.world, key.disturbance, key.method, key.run);
+}
+
+std::vector<Group> groups_of(const HardProtocolOptions& options, const PieceStore& store) {
   std::vector<Group> groups;
   const auto group_for = [&](const std::string& world, int building, const SurveyKind& kind) -> Group& {
     for (Group& group : groups)
@@ -42,11 +46,32 @@ std::vector<Group> groups_of(const HardProtocolOptions& options, const HardStore
       for (int run = 0; run < options.runs; ++run) {
         Task task{*disturbance_by(name), run, {}};
         for (const std::string& method : options.methods)
-          if (!store.find(key_of(options, world, name, method, run))) task.missing.push_back(method);
+          if (!store.find(piece_name(key_of(options, world, name, method, run))))
+            task.missing.push_back(method);
         if (!task.missing.empty())
           group_for(world, run % options.buildings, survey_kind(task.disturbance)).tasks.push_back(task);
       }
   return groups;
+}
+
+std::size_t count_tasks(const std::vector<Group>& groups) {
+  std::size_t tasks = 0;
+  for (const Group& group : groups) tasks += group.tasks.size();
+  return tasks;
+}
+
+/// What is this process's of them. Neighbours share a building, so that few maps are made twice.
+std::vector<Group> portion_of(const std::vector<Group>& groups, const Crew& crew) {
+  const Portion portion = portion_of(count_tasks(groups), crew);
+  std::vector<Group> mine;
+  std::size_t at = 0;
+  for (const Group& group : groups) {
+    Group part{group.world, group.building, group.kind, {}};
+    for (const Task& task : group.tasks)
+      if (const std::size_t i = at++; i >= portion.first && i < portion.last) part.tasks.push_back(task);
+    if (!part.tasks.empty()) mine.push_back(std::move(part));
+  }
+  return mine;
 }
 
 std::optional<Error> wrong_with(const HardProtocolOptions& options) {
@@ -72,52 +97,8 @@ std::optional<Error> wrong_with(const HardProtocolOptions& options) {
   return std::nullopt;
 }
 
-/// Tells of progress, counts what is done, keeps records: from any thread.
-class Work {
- public:
-  Work(const HardProtocolOptions& options, HardStore& store, std::size_t tasks)
-      : options_(options), store_(store), tasks_(tasks) {}
-
-  void tell(const char* what) {
-    const std::scoped_lock lock(mutex_);
-    if (options_.progress && !options_.progress(what, share())) stopped_ = true;
-  }
-  void finish(std::vector<HardRecord> records) {
-    {
-      const std::scoped_lock lock(mutex_);
-      for (HardRecord& record : records) store_.add(std::move(record));
-      ++done_;
-    }
-    tell("runs");
-  }
-  void fail(Error error) {
-    const std::scoped_lock lock(mutex_);
-    if (!error_) error_ = std::move(error);
-    stopped_ = true;
-  }
-  bool stopped() const { return stopped_; }
-  Result<void> end() const {
-    if (error_) return *error_;
-    if (!store_.good())
-      return Error(options_.folder.string() + ": runs cannot be written; is the disk full?");
-    if (stopped_)
-      return Error(fmt::format("interrupted after {} of {} starts; the same command goes on from there",
-                               done_, tasks_));
-    return {};
-  }
-
- private:
-  double share() const { return static_cast<double>(done_) / static_cast<double>(tasks_); }
-  const HardProtocolOptions& options_;
-  HardStore& store_;
-  std::size_t tasks_, done_ = 0;
-  std::mutex mutex_;
-  std::atomic<bool> stopped_ = false;
-  std::optional<Error> error_;
-};
-
-void run_group(const Group& group, const HardProtocolOptions& options, Work& work) {
-  work.tell("survey and map");
+void run_group(const Group& group, const HardProtocolOptions& options, Piecework& work) {
+  work.tell("survey and map", 0.0);
   const Result<HardSite> site = make_site(options, group.world, group.building, group.kind);
   if (!site) return work.fail(site.error());
   parallel_for(group.tasks.size(), options.threads, [&](std::size_t i) {
@@ -130,10 +111,31 @@ void run_group(const Group& group, const HardProtocolOptions& options, Work& wor
     auto drive = drive_hard_run(site->building, missing, task.disturbance, options,
                                 site->runs.fork(static_cast<std::uint64_t>(task.run)));
     if (!drive) return work.fail(drive.error());
-    for (std::size_t m = 0; m < drive->records.size(); ++m)
-      drive->records[m].key = key_of(options, group.world, task.disturbance.name, task.missing[m], task.run);
-    work.finish(std::move(drive->records));
+    std::vector<std::pair<std::string, std::string>> finished;
+    for (std::size_t m = 0; m < drive->records.size(); ++m) {
+      HardRecord& record = drive->records[m];
+      record.key = key_of(options, group.world, task.disturbance.name, task.missing[m], task.run);
+      record.options = text_of(options);
+      finished.emplace_back(piece_name(record.key), to_line(record));
+    }
+    work.finish(finished);
   });
+}
+
+/// The records of all runs asked for, in order.
+Result<std::vector<HardRecord>> records_of(const HardProtocolOptions& options, const PieceStore& store) {
+  std::vector<HardRecord> records;
+  for (const std::string& world : options.worlds)
+    for (const std::string& disturbance : options.disturbances)
+      for (int run = 0; run < options.runs; ++run)
+        for (const std::string& method : options.methods) {
+          const std::string name = piece_name(key_of(options, world, disturbance, method, run));
+          const std::string* line = store.find(name);
+          Result<HardRecord> record = line ? record_from_line(*line) : Error("it is missing");
+          if (!record) return record.error().within(fmt::format("run '{}'", name));
+          records.push_back(std::move(record).value());
+        }
+  return records;
 }
 
 }  // namespace
@@ -148,24 +150,16 @@ std::vector<std::string> hard_world_names() {
 
 Result<std::vector<HardRecord>> run_hard_protocol(const HardProtocolOptions& options) {
   if (auto error = wrong_with(options)) return *error;
-  Result<HardStore> store = HardStore::open(options.folder, text_of(options), options.build);
+  Result<PieceStore> store =
+      PieceStore::open(options.folder, {text_of(options), options.build}, options.crew);
   if (!store) return store.error();
-  const std::vector<Group> groups = groups_of(options, *store);
-  std::size_t tasks = 0;
-  for (const Group& group : groups) tasks += group.tasks.size();
-  Work work(options, *store, tasks);
+  const std::vector<Group> groups = portion_of(groups_of(options, *store), options.crew);
+  Piecework work(*store, options.progress);
+  work.expect(count_tasks(groups));
   for (const Group& group : groups)
     if (!work.stopped()) run_group(group, options, work);
-  if (const Result<void> end = work.end(); !end) return end.error();
-
-  std::vector<HardRecord> records;
-  for (const std::string& world : options.worlds)
-    for (const std::string& disturbance : options.disturbances)
-      for (int run = 0; run < options.runs; ++run)
-        for (const std::string& method : options.methods)
-          if (const HardRecord* record = store->find(key_of(options, world, disturbance, method, run)))
-            records.push_back(*record);
-  return records;
+  if (const Result<void> end = store->gather(options.crew, work.end()); !end) return end.error();
+  return records_of(options, *store);
 }
 
 }  // namespace mstsl

@@ -6,38 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "judged_json.hpp"
+
 namespace mstsl {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using mstsl::json_of;
 
 constexpr double kFirstEdge_ms = 0.001, kGrowth = 1.12;
-
-Json json_of(const JudgedAnswer& a) {
-  Json list{a.travelled_m, a.probability, a.error.position_m, a.error.yaw_rad, a.right, a.tight};
-  if (a.nees) list.push_back(*a.nees);
-  return list;
-}
-JudgedAnswer answer_from(const Json& j) {
-  JudgedAnswer answer{j.at(0), j.at(1), {j.at(2), j.at(3)}, j.at(4), j.at(5)};
-  if (j.size() > 6) answer.nees = j.at(6);
-  return answer;
-}
-
-template <typename T>
-Json json_of(const std::optional<T>& value) {
-  if (!value) return nullptr;
-  if constexpr (std::is_same_v<T, JudgedAnswer>)
-    return json_of(*value);
-  else
-    return *value;
-}
-std::optional<double> number_from(const Json& j) {
-  return j.is_null() ? std::nullopt : std::optional<double>(j.get<double>());
-}
-std::optional<JudgedAnswer> optional_answer_from(const Json& j) {
-  return j.is_null() ? std::nullopt : std::optional<JudgedAnswer>(answer_from(j));
-}
 
 /// Pairs of bin and count: most bins are empty.
 Json json_of(const CostHistogram& histogram) {
@@ -64,7 +41,6 @@ HardRecord record_from(const Json& j) {
   HardRecord r;
   r.key = {j.at("set"), j.at("world"), j.at("disturbance"), j.at("method"), j.at("run")};
   r.options = j.at("options");
-  r.build = j.at("build");
   r.driven_m = j.at("driven_m");
   r.duration_s = j.at("duration_s");
   r.estimates = j.at("estimates");
@@ -123,7 +99,6 @@ std::string to_line(const HardRecord& r) {
                {"method", r.key.method},
                {"run", r.key.run},
                {"options", r.options},
-               {"build", r.build},
                {"driven_m", r.driven_m},
                {"duration_s", r.duration_s},
                {"estimates", r.estimates},

@@ -31,7 +31,8 @@ Result<std::vector<LocalizerFactory>> factories_for(const std::vector<std::strin
 Result<HardSite> make_site(const HardProtocolOptions& options, const std::string& world, int building,
                            const SurveyKind& kind) {
   const Random random = Random(options.seed).fork(stream_of(world));
-  const std::string name = fmt::format("map_{}_{}_{}_seed{}", world, building, kind.name(), options.seed);
+  std::string name = fmt::format("map_{}_{}_{}_seed{}", world, building, kind.name(), options.seed);
+  if (!options.build.empty()) name += "_" + options.build;  // another program's map may be another
   Result<HardBuilding> made = make_building(
       world, kind, random.fork(stream_of("building")).fork(static_cast<std::uint64_t>(building)),
       options.folder, name, options.threads);

@@ -10,6 +10,8 @@
 #include "mstsl/eval/mapping_protocol.hpp"
 #include "mstsl/eval/statistics.hpp"
 
+#include "mapping_record.hpp"
+
 namespace mstsl {
 namespace {
 
@@ -61,21 +63,11 @@ std::string mapping_text(std::span<const MappingRecord> records) {
 std::string mapping_json(std::span<const MappingRecord> records, const MappingProtocolOptions& options,
                          const std::string& commit) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
-  for (const MappingRecord& r : records)
-    runs.push_back({{"robot", r.robot},
-                    {"world", r.world},
-                    {"run", r.run},
-                    {"with_field", r.with_field},
-                    {"driven_m", r.driven_m},
-                    {"closures", r.closures},
-                    {"wrong_closures", r.wrong_closures},
-                    {"refuted", r.refuted},
-                    {"ambiguous", r.ambiguous},
-                    {"refused_by_field", r.refused_by_field},
-                    {"closed_only_with_field", r.closed_only_with_field},
-                    {"ate_rms_m", r.ate_rms_m},
-                    {"ate_max_m", r.ate_max_m},
-                    {"map_error", r.map_error}});
+  for (const MappingRecord& record : records) {
+    nlohmann::ordered_json run = json_of(record);
+    run.erase("cpu_s"), run.erase("driven_s");  // the same bytes for the same drives
+    runs.push_back(run);
+  }
   const nlohmann::ordered_json all = {{"protocol", "mapping"},     {"commit", commit},
                                       {"seed", options.seed},      {"length_m", options.length_m},
                                       {"runs_each", options.runs}, {"runs", runs}};

@@ -15,6 +15,7 @@
 #include "eval/hard_crowd.hpp"
 #include "eval/hard_listener.hpp"
 #include "test_support.hpp"
+#include "thread_crew.hpp"
 
 namespace mstsl {
 namespace {
@@ -94,7 +95,7 @@ TEST(HardListener, TellsWhenACarryWasNoticedAndMended) {
 TEST(HardRecord, ComesBackFromItsLine) {
   HardRecord record = listen({{}, 0.1, 0.2, {}, 0.9}, 3);
   record.key = {"kidnap", "office", "all", "joint", 7};
-  record.options = "seed 1", record.build = "b", record.simulation_ms = 12.5;
+  record.options = "seed 1", record.simulation_ms = 12.5;
   const std::string line = to_line(record);
   EXPECT_EQ(line.find('\n'), std::string::npos);
   const HardRecord back = must(record_from_line(line));
@@ -214,13 +215,18 @@ TEST(HardProtocol, KeepsRunsAndIsTheSameAtAnyNumberOfThreads) {
 
   { std::ofstream(folder / "runs.jsonl", std::ios::app) << "{\"set\": \"cut o"; }
   options.build = "another", options.threads = {1};
-  const auto again = must(run_hard_protocol(options));
-  ASSERT_EQ(again.size(), 4u);
+  std::vector<std::vector<HardRecord>> again(2);
+  test::as_crew(2, [&](const Crew& crew) {  // one in this folder, one in its own
+    HardProtocolOptions mine = options;
+    mine.crew = crew;
+    if (!crew.leads()) mine.folder /= "elsewhere";
+    again[static_cast<std::size_t>(crew.rank)] = must(run_hard_protocol(mine));
+  });
   EXPECT_EQ(lines(), 9) << "another build's runs are not taken for this one's";
-  for (std::size_t i = 0; i < 4; ++i) {
-    HardRecord same = again[i];
-    same.build = "test";
-    EXPECT_EQ(without_cost(same), without_cost(first[i]));
+  for (const auto& records : again) {
+    ASSERT_EQ(records.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(without_cost(records[i]), without_cost(first[i]));
+    EXPECT_EQ(hard_json(records, {}), hard_json(first, {}));
   }
   fs::remove_all(folder);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mstsl/core/crew.hpp"
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
 #include "mstsl/eval/hard_record.hpp"
@@ -42,6 +43,7 @@ struct HardProtocolOptions {
   int beams = 541;
   std::uint64_t seed = 1;
   Threads threads;
+  Crew crew;  ///< the processes that share the runs; a folder in common or one for each will do
   /// Field maps and finished runs are kept here, so that a run that was interrupted goes on.
   std::filesystem::path folder;
   std::string build;  ///< of the program; runs kept from another build are made anew
@@ -50,8 +52,9 @@ struct HardProtocolOptions {
 };
 
 /// Makes the runs that `folder` does not have yet. The records of all runs asked for, in the order world,
-/// disturbance, run, method, the same at any number of threads but for the cost. Errors: names that are not
-/// there, a building or map that cannot be made, a folder that cannot be written, an end asked for.
+/// disturbance, run, method, the same at any number of threads and processes but for the cost. Errors: names
+/// that are not there, a building or map that cannot be made, a folder that cannot be written, an end asked
+/// for; of any process for all of them.
 Result<std::vector<HardRecord>> run_hard_protocol(const HardProtocolOptions& options);
 
 }  // namespace mstsl

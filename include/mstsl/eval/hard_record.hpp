@@ -48,7 +48,6 @@ struct KidnapOutcome {
 struct HardRecord {
   HardKey key;
   std::string options;  ///< seed, length, lidar ...: what else decides the run
-  std::string build;    ///< of the program that made it
   double driven_m = 0.0;
   double duration_s = 0.0;
   std::size_t estimates = 0;

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "mstsl/core/crew.hpp"
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
 
@@ -25,6 +27,10 @@ struct MappingProtocolOptions {
   double length_m = 400.0;  ///< driven per run
   std::uint64_t seed = 1;
   Threads threads;
+  Crew crew;  ///< the processes that share the drives
+  /// Finished drives are kept here and taken up again by the same `build`; nothing is kept where it is empty.
+  std::filesystem::path folder;
+  std::string build;                           ///< of the program
   std::function<bool(double share)> progress;  ///< false ends it
 };
 

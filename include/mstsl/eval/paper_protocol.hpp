@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mstsl/core/crew.hpp"
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
 #include "mstsl/eval/metrics.hpp"
@@ -36,6 +38,12 @@ struct PaperProtocolOptions {
   std::optional<std::size_t> hypotheses;
   Criteria criteria;
   Threads threads;
+  Crew crew;  ///< the processes that share the runs
+  /// Finished runs are kept here, so that a protocol that was interrupted goes on; nothing is kept where it
+  /// is empty. Taken up again are runs of the same `build` with the same world, seed, numbers of waypoints
+  /// and runs, models, survey's fingerprints and lane spacing, bias, moved fraction and K.
+  std::filesystem::path folder;
+  std::string build;  ///< of the program
   /// Called now and then, by one thread at a time, with what is being done and its share; false ends the
   /// protocol.
   std::function<bool(const char* what, double share)> progress;
@@ -61,11 +69,11 @@ struct ProtocolResult {
   std::vector<ProtocolRun> runs;  ///< by waypoint, run, model
   std::vector<Eigen::Vector2d> waypoints_m;
   std::shared_ptr<const TracedPlace> place;  ///< with the field by the first model
-  std::vector<RunTrace> traces;              ///< of the first run from each waypoint, a method a model
+  std::vector<RunTrace> traces;  ///< of the first run from each waypoint, a method a model; the leader's only
 };
 
-/// Runs it. The same result at any number of threads. Errors: a world that is not there, a survey or map that
-/// cannot be made, or an end asked for by `progress`.
+/// Runs it. The same result at any number of threads and processes. Errors: a world that is not there, a
+/// survey or map that cannot be made, or an end asked for by `progress`.
 Result<ProtocolResult> run_paper_protocol(const PaperProtocolOptions& options);
 
 }  // namespace mstsl

@@ -14,6 +14,9 @@
 
 namespace mstsl {
 
+/// Whether everything that is to be seen of a run is kept. A long run's hypotheses would fill the memory.
+enum class Traced { kNo, kYes };
+
 /// The maps that runs are shown on.
 struct TracedPlace {
   std::string name;
