@@ -4,6 +4,7 @@ option(MSTSL_BUILD_FUZZERS "Build the libFuzzer targets (needs clang)" OFF)
 option(MSTSL_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(MSTSL_BUILD_EXAMPLES "Build the examples" ${PROJECT_IS_TOP_LEVEL})
 option(MSTSL_WITH_MRPT "Build the baseline mcl if MRPT is installed; each start of the program then takes 0.4 s and 85 MB more" OFF)
+option(MSTSL_WITH_MPI "Let `mpirun -n N mstsl bench` share the runs among processes, if MPI is installed" OFF)
 option(MSTSL_PCH "Precompile the common headers: builds in about half the time" ON)
 set(MSTSL_DATA_DIR "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH
     "Folder with the real recordings; tests that need one are skipped where it is absent")

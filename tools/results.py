@@ -8,7 +8,7 @@ A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Repor
 paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of `mstsl bench --protocol real` (real.json, as
 real/METHOD_SEED.json), of
 tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, and for
-several methods on the same events baselines/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
+several methods on the same events baselines/SEED.json, without a magnetometer no_magnetometer/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
 real.json of tools/real_mapping.sh; update/SEED.json of tools/map_update.sh.
 """
 import json
@@ -16,6 +16,8 @@ import math
 import pathlib
 import re
 import sys
+
+import standing
 
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
 MODELS = ("gpr", "bilinear", "fingerprint")
@@ -225,7 +227,25 @@ def update_table():
                   "median error of other drives before, after", "better, worse by 5 %"], rows)
 
 
-TABLES = {"paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
+def method_reports():
+    """Those in which several methods heard the same events, and what is to be said of all their places."""
+    return ([("", report) for report in reports("baselines").values()] +
+            [(", no magnetometer", report) for report in reports("no_magnetometer").values()])
+
+
+def trust_table():
+    return table(["place", "right most often", "no worse, as far as these runs can tell", "worse"],
+                 standing.trust_rows(method_reports()))
+
+
+def losses_list():
+    losses = [loss for report in reports("hard").values() for loss in standing.hard_losses(report)]
+    losses += [loss for name, data_sets in reports("real").items() for loss in standing.real_losses(name, data_sets)]
+    losses += [loss for label, report in method_reports() for loss in standing.place_losses(label, report)]
+    return "\n".join(f"- {loss}" for loss in losses)
+
+
+TABLES = {"trust": trust_table, "losses": losses_list, "paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
           "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "mapping": mapping_table,
           "mapping_real": mapping_real_table, "update": update_table}
 

@@ -8,6 +8,7 @@
 #include "bench_mapping.hpp"
 #include "bench_paper.hpp"
 #include "bench_real.hpp"
+#include "processes.hpp"
 #include "session.hpp"
 
 namespace mstsl::app {
@@ -23,12 +24,23 @@ struct Wish {
   RealWish real;
 };
 
-Result<Exit> bench(const Session& session, const Wish& wish) {
+Result<Exit> run_protocol(const Session& session, const Wish& wish) {
   if (wish.protocol == "hard") return bench_hard(session, wish.hard, wish.runs, wish.output);
   if (wish.protocol == "mapping")
     return bench_mapping(session, wish.mapping, wish.hard.worlds, wish.runs, wish.output);
   if (wish.protocol == "real") return bench_real(session, wish.real, wish.hard.methods, wish.output);
   return bench_paper(session, wish.paper, wish.runs, wish.output);
+}
+
+/// As one of the processes that mpirun started, if it did. The leader speaks for all.
+Result<Exit> bench(Session session, const Wish& wish) {
+  const Result<Processes> processes = Processes::join();
+  if (!processes) return processes.error();
+  session.crew = processes->crew();
+  if (session.crew.leads()) return run_protocol(session, wish);
+  session.quiet = true, session.json = false;
+  const Result<Exit> mine = run_protocol(session, wish);
+  return mine ? *mine : Exit::kFailed;
 }
 
 }  // namespace

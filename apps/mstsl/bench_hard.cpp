@@ -1,7 +1,5 @@
 #include "bench_hard.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -15,22 +13,13 @@
 #include "mstsl/report/page.hpp"
 #include "mstsl/sim/world.hpp"
 
+#include "build_hash.hpp"
+#include "hard_drawings.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 
 namespace mstsl::app {
 namespace {
-
-/// A hash (FNV-1a) of this very program: runs of another program are not this one's.
-std::string build_hash() {
-  std::ifstream self("/proc/self/exe", std::ios::binary);
-  std::uint64_t hash = 14695981039346656037u;
-  std::vector<char> block(1 << 16);
-  while (self.read(block.data(), static_cast<std::streamsize>(block.size())) || self.gcount() > 0)
-    for (std::streamsize i = 0; i < self.gcount(); ++i)
-      hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 1099511628211u;
-  return fmt::format("{:016x}", hash);
-}
 
 double peak_memory_mb() {
   rusage usage{};
@@ -53,6 +42,7 @@ HardProtocolOptions options_of(const Session& session, const HardWish& wish, int
   options.beams = wish.beams;
   options.seed = session.seed;
   options.threads = session.threads;
+  options.crew = session.crew;
   options.folder = folder;
   options.build = build_hash();
   return options;
@@ -134,6 +124,7 @@ Result<Exit> bench_hard(const Session& session, const HardWish& wish, int runs,
   };
   const auto records = run_hard_protocol(options);
   if (!records) return records.error();
+  if (!session.crew.leads()) return Exit::kDone;
   const HardHead head{MSTSL_COMMIT, options.build, options.seed, peak_memory_mb()};
   bar.emplace("replays", session.quiet);
   const auto page = page_of(options, wish, *records, head);
@@ -146,11 +137,14 @@ Result<Exit> bench_hard(const Session& session, const HardWish& wish, int runs,
                                       {fmt::format("cost_{}.json", wish.set), hard_cost_json(*records, head)},
                                       {fmt::format("report_{}.html", wish.set), *page}})
     if (const Result<void> written = io::write_file(folder / name, content); !written) return written.error();
+  if (const Result<void> drawn = draw_hard_figures(*records, wish.set, folder); !drawn) return drawn.error();
   if (session.json)
     fmt::print("{}", json);
   else if (!session.quiet)
-    fmt::print("{}\n{}: report_{}.html, table_{}.txt and .csv, results_{}.json, cost_{}.json, runs.jsonl\n",
-               text, folder.string(), wish.set, wish.set, wish.set, wish.set);
+    fmt::print(
+        "{0}\n{1}: report_{2}.html, hard_{2}_*.svg, table_{2}.txt and .csv, results_{2}.json, cost_{2}.json, "
+        "runs.jsonl\n",
+        text, folder.string(), wish.set);
   return Exit::kDone;
 }
 

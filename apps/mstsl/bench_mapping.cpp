@@ -1,12 +1,12 @@
 #include "bench_mapping.hpp"
 
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "mstsl/io/atomic_file.hpp"
 
+#include "build_hash.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 
@@ -28,9 +28,6 @@ void add_mapping_options(CLI::App& command, MappingWish& wish) {
 Result<Exit> bench_mapping(const Session& session, const MappingWish& wish,
                            const std::vector<std::string>& worlds, int runs,
                            const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return Error(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
   MappingProtocolOptions options;
   if (!worlds.empty()) options.worlds = worlds;
   options.robots = wish.robots;
@@ -38,10 +35,14 @@ Result<Exit> bench_mapping(const Session& session, const MappingWish& wish,
   options.runs = runs;
   options.seed = session.seed;
   options.threads = session.threads;
+  options.crew = session.crew;
+  options.folder = folder;
+  options.build = build_hash();
   Progress progress("mapping", session.quiet);
   options.progress = [&](double share) { return progress.show(share), !interrupted(); };
   const auto records = run_mapping_protocol(options);
   if (!records) return records.error();
+  if (!session.crew.leads()) return Exit::kDone;
   const std::string text = mapping_text(*records), json = mapping_json(*records, options, MSTSL_COMMIT);
   for (const auto& [name, content] : {std::pair{"mapping.txt", &text}, std::pair{"mapping.json", &json}})
     if (const auto written = io::write_file(folder / name, *content); !written) return written.error();

@@ -9,6 +9,7 @@
 #include "mstsl/io/atomic_file.hpp"
 #include "mstsl/report/page.hpp"
 
+#include "build_hash.hpp"
 #include "interrupt.hpp"
 #include "paper_drawings.hpp"
 #include "progress.hpp"
@@ -19,11 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 PaperProtocolOptions options_of(const Session& session, const PaperWish& wish, int runs,
-                                const std::string& world) {
+                                const std::string& world, const fs::path& folder) {
   PaperProtocolOptions options;
   options.world = world;
   options.seed = session.seed;
   options.threads = session.threads;
+  options.crew = session.crew;
+  options.folder = folder;
+  options.build = build_hash();
   options.waypoints = wish.waypoints;
   options.runs_per_waypoint = runs;
   options.survey.survey.fingerprints = wish.fingerprints;
@@ -109,7 +113,7 @@ Result<Exit> bench_paper(const Session& session, const PaperWish& wish, int runs
                                               ? std::vector<std::string>{"corridor", "carpark"}
                                               : std::vector<std::string>{wish.world};
   for (const std::string& world : worlds) {
-    PaperProtocolOptions options = options_of(session, wish, runs, world);
+    PaperProtocolOptions options = options_of(session, wish, runs, world, folder);
     std::optional<Progress> bar;
     const char* doing = nullptr;
     options.progress = [&](const char* what, double share) {
@@ -120,6 +124,7 @@ Result<Exit> bench_paper(const Session& session, const PaperWish& wish, int runs
     const Result<ProtocolResult> result = run_paper_protocol(options);
     if (!result) return result.error();
     bar.reset();
+    if (!session.crew.leads()) continue;
     if (const Result<void> written = write_report(*result, folder); !written) return written.error();
     if (session.json)
       fmt::print("{}", protocol_json(*result));

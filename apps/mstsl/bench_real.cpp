@@ -96,7 +96,7 @@ std::string text_of(const Json& results) {
 }
 
 struct Finished {
-  Json results = Json::array();
+  Json results = Json::object();  ///< by recording
   std::vector<RunTrace> traces;
 };
 
@@ -106,8 +106,8 @@ Result<void> run(const Session& session, const RealWish& wish, const std::vector
   const std::size_t runs = wish.runs ? static_cast<std::size_t>(*wish.runs) : recording.runs;
   const Json made_by{{"commit", MSTSL_COMMIT}, {"seed", session.seed}, {"runs", runs}, {"methods", methods}};
   const fs::path kept = folder / fmt::format("{}.json", recording.name);
-  if (const auto known = finished(kept, made_by)) {
-    for (const Json& result : *known) all.results.push_back(result);
+  if (auto known = finished(kept, made_by)) {
+    all.results[recording.name] = *std::move(known);
     return {};
   }
   Progress progress(recording.name, session.quiet);
@@ -130,17 +130,51 @@ Result<void> run(const Session& session, const RealWish& wish, const std::vector
   if (auto written = io::write_file(kept, Json{{"made_by", made_by}, {"results", results}}.dump(1) + "\n");
       !written)
     return written;
-  for (Json& result : results) all.results.push_back(std::move(result));
+  all.results[recording.name] = std::move(results);
   all.traces.push_back(std::move(outcome->trace));
   return {};
 }
 
-Result<void> write(const Finished& all, const fs::path& folder, const std::string& text) {
+/// The recordings that are there and this process's turn.
+Result<Finished> run_all(const Session& session, const RealWish& wish,
+                         const std::vector<std::string>& methods, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return Error(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+  Finished all;
+  int turn = 0;
+  for (const Recording& recording : kRecordings) {
+    if (turn++ % session.crew.size != session.crew.rank) continue;
+    if (!fs::exists(wish.data / recording.path)) {
+      if (!session.quiet)
+        fmt::print(stderr, "mstsl: {} is skipped: there is no {}\n", recording.name,
+                   (wish.data / recording.path).string());
+      continue;
+    }
+    if (auto done = run(session, wish, methods, recording, folder, all); !done) return done.error();
+  }
+  return all;
+}
+
+/// The results of all processes, in the order of the recordings.
+Result<Json> results_of_all(const Crew& crew, const Result<Finished>& mine) {
+  const auto told = pooled(crew, mine ? Result<std::string>(mine->results.dump()) : mine.error());
+  if (!told) return told.error();
+  Json by_name = Json::object(), results = Json::array();
+  for (const std::string& one : *told) by_name.update(Json::parse(one));
+  for (const Recording& recording : kRecordings)
+    if (by_name.contains(recording.name))
+      for (Json& result : by_name[recording.name]) results.push_back(std::move(result));
+  return results;
+}
+
+Result<void> write(const Json& results, const std::vector<RunTrace>& traces, const fs::path& folder,
+                   const std::string& text) {
   report::Page page;
   page.title = "Real recordings";
   page.subtitle = "The first run of each data set that this call drove; the table is in real.txt";
-  page.runs = all.traces;
-  for (const auto& [name, content] : {std::pair{"real.json", all.results.dump(1) + "\n"},
+  page.runs = traces;
+  for (const auto& [name, content] : {std::pair{"real.json", results.dump(1) + "\n"},
                                       {"real.txt", text},
                                       {"report_real.html", report::html(page)}})
     if (auto written = io::write_file(folder / name, content); !written) return written;
@@ -164,24 +198,15 @@ void add_real_options(CLI::App& command, RealWish& wish) {
 Result<Exit> bench_real(const Session& session, const RealWish& wish, const std::vector<std::string>& methods,
                         const fs::path& folder) {
   if (wish.data.empty()) return Error("--protocol real needs --data FOLDER: where the recordings are");
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return Error(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
-  Finished all;
-  for (const Recording& recording : kRecordings) {
-    if (!fs::exists(wish.data / recording.path)) {
-      if (!session.quiet)
-        fmt::print(stderr, "mstsl: {} is skipped: there is no {}\n", recording.name,
-                   (wish.data / recording.path).string());
-      continue;
-    }
-    if (auto done = run(session, wish, methods, recording, folder, all); !done) return done.error();
-  }
-  if (all.results.empty()) return Error(wish.data.string() + ": none of the recordings is there");
-  const std::string text = text_of(all.results);
-  if (auto written = write(all, folder, text); !written) return written.error();
+  Result<Finished> mine = run_all(session, wish, methods, folder);
+  const Result<Json> results = results_of_all(session.crew, mine);
+  if (!results) return results.error();
+  if (!session.crew.leads()) return Exit::kDone;
+  if (results->empty()) return Error(wish.data.string() + ": none of the recordings is there");
+  const std::string text = text_of(*results);
+  if (auto written = write(*results, mine->traces, folder, text); !written) return written.error();
   if (session.json)
-    fmt::print("{}\n", all.results.dump());
+    fmt::print("{}\n", results->dump());
   else if (!session.quiet)
     fmt::print("{}{}: real.txt, real.json, report_real.html\n", text, folder.string());
   return Exit::kDone;

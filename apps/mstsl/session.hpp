@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "mstsl/core/crew.hpp"
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
 
@@ -16,6 +17,7 @@ enum class Exit : int { kDone = 0, kFailed = 1, kWrongUsage = 2, kNoFix = 3 };
 /// What every subcommand shares: the common options, and the work that the chosen one wants done.
 struct Session {
   Threads threads;
+  Crew crew;  ///< those who share the work, where a command can share it
   std::uint64_t seed = 1;
   bool quiet = false;
   bool json = false;
