@@ -47,6 +47,8 @@ def check_shell(project, mstsl, body, slow, folder):
             continue
         if words[0] == "./run" and words[1] not in run_commands:
             yield f"./run has no command {words[1]}"
+        if words[0] == "mpirun" and "mstsl" in words:
+            words = words[words.index("mstsl"):]
         if words[0] != "mstsl":
             continue
         for option in options_exist(mstsl, words):
