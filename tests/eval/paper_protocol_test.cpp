@@ -12,7 +12,7 @@ namespace {
 
 using test::must;
 
-PaperProtocolOptions small() {
+PaperProtocolOptions small_paper() {
   PaperProtocolOptions options;
   options.seed = 52;
   options.waypoints = 2;
@@ -23,13 +23,13 @@ PaperProtocolOptions small() {
 }
 
 TEST(PaperProtocol, ComesToTheSameInOneGoAndAfterAnInterruptionAndByTwo) {
-  const ProtocolResult whole = must(run_paper_protocol(small()));
+  const ProtocolResult whole = must(run_paper_protocol(small_paper()));
   ASSERT_EQ(whole.runs.size(), 4u);
   EXPECT_EQ(whole.traces.size(), 2u);
   EXPECT_GT(whole.runs[0].evaluation.estimates, 10u);
 
   const test::TemporaryFolder folder;
-  PaperProtocolOptions options = small();
+  PaperProtocolOptions options = small_paper();
   options.folder = folder.path();
   options.threads = {1};
   options.progress = [](const char* what, double) { return std::string_view(what) != "runs"; };
@@ -39,7 +39,7 @@ TEST(PaperProtocol, ComesToTheSameInOneGoAndAfterAnInterruptionAndByTwo) {
 
   std::vector<std::string> json(2);
   test::as_crew(2, [&](const Crew& crew) {
-    PaperProtocolOptions mine = small();
+    PaperProtocolOptions mine = small_paper();
     mine.folder = folder.path();
     mine.crew = crew;
     json[static_cast<std::size_t>(crew.rank)] = protocol_json(must(run_paper_protocol(mine)));
@@ -49,7 +49,7 @@ TEST(PaperProtocol, ComesToTheSameInOneGoAndAfterAnInterruptionAndByTwo) {
 }
 
 TEST(PaperProtocol, SaysWhatItCannotDo) {
-  PaperProtocolOptions options = small();
+  PaperProtocolOptions options = small_paper();
   options.world = "atlantis";
   EXPECT_FALSE(run_paper_protocol(options));
 }
