@@ -45,6 +45,10 @@ Pose2 to_pose2(const Eigen::Isometry3d& motion) {
           std::atan2(motion.linear()(1, 0), motion.linear()(0, 0))};
 }
 
+Eigen::Vector3d difference(const Pose2& from, const Pose2& to) {
+  return {to.x - from.x, to.y - from.y, angle_between(from.yaw, to.yaw)};
+}
+
 double distance(const Pose2& a, const Pose2& b) { return (a.position() - b.position()).norm(); }
 
 }  // namespace mstsl

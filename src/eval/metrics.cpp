@@ -12,8 +12,7 @@ namespace {
 std::optional<double> nees_of(const Estimate& estimate, const Pose2& truth) {
   const Eigen::LLT<Eigen::Matrix3d> factor(estimate.covariance);
   if (!estimate.covariance.allFinite() || factor.info() != Eigen::Success) return std::nullopt;
-  const Pose2& pose = *estimate.map_T_base;
-  const Eigen::Vector3d error(pose.x - truth.x, pose.y - truth.y, angle_between(truth.yaw, pose.yaw));
+  const Eigen::Vector3d error = difference(truth, *estimate.map_T_base);
   return error.dot(factor.solve(error));
 }
 

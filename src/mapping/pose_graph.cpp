@@ -11,8 +11,6 @@
 
 #include "mstsl/core/angles.hpp"
 
-#include "pose_difference.hpp"
-
 namespace mstsl {
 namespace {
 

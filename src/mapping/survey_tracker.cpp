@@ -11,8 +11,6 @@
 #include "mstsl/mapping/bent_track.hpp"
 #include "mstsl/scan/points.hpp"
 
-#include "pose_difference.hpp"
-
 namespace mstsl {
 namespace {
 

@@ -87,8 +87,7 @@ WallFit fitted(const Walls& walls, const PointSet& points_base_m, const PosePrio
   double width = std::clamp(reach_of(prior) / options.sigma_m, 1.0, options.widest);
   for (int i = 0; i < options.max_iterations; ++i) {
     sums = sums_at(walls, points_base_m, fit.map_T_base, width * options.sigma_m);
-    const Eigen::Vector3d off(fit.map_T_base.x - prior.mean.x, fit.map_T_base.y - prior.mean.y,
-                              angle_between(prior.mean.yaw, fit.map_T_base.yaw));
+    const Eigen::Vector3d off = difference(prior.mean, fit.map_T_base);
     const Eigen::Vector3d slope = sums.slope / options.points_per_error + prior_information * off;
     const Eigen::Matrix3d curvature = sums.curvature / options.points_per_error + prior_information;
     Eigen::Vector3d step = curvature.inverse() * slope;

@@ -109,7 +109,7 @@ class NegativeLogPosterior final : public ceres::FirstOrderFunction {
     const Eigen::Vector3d change = units_.cwiseProduct(Eigen::Map<const Eigen::Vector3d>(parameters));
     const Slope scan = scan_.at(change);
     const Pose2 pose = scan_.pose(change);
-    const Eigen::Vector3d off(pose.x - mean_.x, pose.y - mean_.y, angle_between(mean_.yaw, pose.yaw));
+    const Eigen::Vector3d off = difference(mean_, pose);
     *cost = scan.value / points_per_error_ + 0.5 * off.dot(information_ * off);
     if (gradient != nullptr) {
       const Eigen::Vector3d slope = scan.by_change / points_per_error_ + information_ * off;

@@ -40,6 +40,9 @@ Eigen::Isometry3d to_isometry3(const Pose2& pose);
 /// The planar part of a rigid motion: x, y and the yaw of its x axis seen from above.
 Pose2 to_pose2(const Eigen::Isometry3d& motion);
 
+/// x, y and yaw of `to` less those of `from`, both given in one frame; the yaw the short way round.
+Eigen::Vector3d difference(const Pose2& from, const Pose2& to);
+
 double distance(const Pose2& a, const Pose2& b);
 
 }  // namespace mstsl

@@ -1,25 +1,20 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
-#include <list>
-#include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "mstsl/core/angles.hpp"
 #include "mstsl/mapping/field_evidence.hpp"
 #include "mstsl/mapping/keyframe.hpp"
 #include "mstsl/mapping/pose_graph.hpp"
-#include "mstsl/mapping/submap.hpp"
+#include "mstsl/mapping/submap_store.hpp"
 
 namespace mstsl {
 
 struct LoopCloserOptions {
-  double submap_m = 5.0;      ///< way in a submap
+  SubmapOptions submaps;
   double look_every_m = 1.0;  ///< how often older submaps are looked at
-  double stretch_m = 4.0;     ///< way whose scans and field are compared with them together
   /// Submaps that ended less than this way ago are no loop (m).
   double least_way_m = 15.0;
   /// Submaps farther away than this (m), and the standard deviation of how far, show nothing in common.
@@ -50,47 +45,27 @@ struct LoopCounts {
 /// the graph leaves possible; scans and field together say which of the matches, if any, is right.
 class LoopCloser {
  public:
-  explicit LoopCloser(const LoopCloserOptions& options = {}) : options_(options) {}
+  explicit LoopCloser(const LoopCloserOptions& options = {}) : options_(options), store_(options.submaps) {}
 
   /// What follows is another drive, by another robot perhaps: nothing is joined across.
-  void begin_drive(const Eigen::Vector2d& magnetometer_base_m);
+  void begin_drive(const Eigen::Vector2d& magnetometer_base_m) { store_.begin_drive(magnetometer_base_m); }
   /// The next keyframe, of which the graph already has the pose.
-  void add(const Keyframe& keyframe);
+  void add(const Keyframe& keyframe) { store_.add(keyframe); }
   /// Closures of the last keyframe, if it is time to look.
   std::vector<Closure> look(const PoseGraph& graph);
 
   const LoopCounts& counts() const { return counts_; }
-  const FieldVariogram& variogram() const { return variogram_; }
-  std::size_t keyframes_kept() const;
+  const FieldVariogram& variogram() const { return store_.variogram(); }
+  std::size_t keyframes_kept() const { return store_.keyframes_kept(); }
 
  private:
-  struct Match {
-    Pose2 origin_T_base;
-    Eigen::Matrix3d covariance;  ///< axes of the origin
-    double score = 0.0;
-    double log_prior = 0.0;  ///< how far it is from where the graph has it
-    double log_field = 0.0;
-  };
-  void end_submap();
   std::vector<std::size_t> near(const PoseGraph& graph,
                                 const std::vector<Eigen::Matrix3d>& covariances) const;
-  const SubmapWalls& walls_of(std::size_t submap);
-  std::vector<Match> matches(const SubmapWalls& walls, const Stretch& stretch, const PosePrior& prior) const;
-  void along_what_scans_leave_open(const SubmapWalls& walls, const Stretch& stretch, const PosePrior& prior,
-                                   std::vector<Match>& matches) const;
   std::optional<Closure> close(std::size_t submap, const Stretch& stretch, const PosePrior& prior);
-  void let_go_where_known(std::size_t submap, const Closure& closure);
 
   LoopCloserOptions options_;
-  int drive_ = -1;
-  Eigen::Vector2d magnetometer_base_m_{0, 0};
-  std::vector<Submap> submaps_;
-  std::vector<Keyframe> open_;    ///< of the submap being made
-  std::deque<Keyframe> stretch_;  ///< the last metres
-  std::size_t keyframes_ = 0;
+  SubmapStore store_;
   double looked_at_m_ = 0.0;
-  std::list<std::pair<std::size_t, SubmapWalls>> ready_;  ///< made last, first
-  FieldVariogram variogram_;
   LoopCounts counts_;
 };
 

@@ -151,8 +151,7 @@ void update_by_scan(Mode& mode, const WallFit& fit) {
   const Eigen::Matrix3d shrink =
       fit.information * (Eigen::Matrix3d::Identity() + prior * fit.information).inverse();
   const Eigen::Matrix<double, kStates, 3> cross = mode.covariance.leftCols<3>();
-  const Eigen::Vector3d moved(fit.map_T_base.x - mode.map_T_base.x, fit.map_T_base.y - mode.map_T_base.y,
-                              angle_between(mode.map_T_base.yaw, fit.map_T_base.yaw));
+  const Eigen::Vector3d moved = difference(mode.map_T_base, fit.map_T_base);
   shift_pose(mode, cross * prior.ldlt().solve(moved));
   mode.map_T_base = fit.map_T_base;
   mode.covariance.noalias() -= cross * (0.5 * (shrink + shrink.transpose())) * cross.transpose();

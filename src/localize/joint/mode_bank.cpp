@@ -25,8 +25,7 @@ bool heavier(const Mode& a, const Mode& b) {
 
 /// Squared distance of two modes' poses in their common standard deviations, cells of the map added.
 double squared_distance(const Mode& a, const Mode& b) {
-  const Eigen::Vector3d off(a.map_T_base.x - b.map_T_base.x, a.map_T_base.y - b.map_T_base.y,
-                            angle_between(b.map_T_base.yaw, a.map_T_base.yaw));
+  const Eigen::Vector3d off = difference(b.map_T_base, a.map_T_base);
   Eigen::Matrix3d sum = a.pose_covariance() + b.pose_covariance();
   sum.diagonal() += Eigen::Vector3d(0.02 * 0.02, 0.02 * 0.02, 0.005 * 0.005);
   return off.dot(sum.ldlt().solve(off));
@@ -36,8 +35,7 @@ double squared_distance(const Mode& a, const Mode& b) {
 Mode merged_modes(const Mode& a, const Mode& b) {
   const double share_b = 1.0 / (1.0 + std::exp(a.log_weight - b.log_weight));
   Vector off = b.state - a.state;
-  off.head<3>() << b.map_T_base.x - a.map_T_base.x, b.map_T_base.y - a.map_T_base.y,
-      angle_between(a.map_T_base.yaw, b.map_T_base.yaw);
+  off.head<3>() = difference(a.map_T_base, b.map_T_base);
   Mode both = a;
   both.map_T_base =
       Pose2::from(a.map_T_base.position() + share_b * off.head<2>(), a.map_T_base.yaw + share_b * off(2));
