@@ -1,4 +1,4 @@
-// The standard and Eigen headers that nearly every file includes, compiled once for all modules (option
+// The standard, Eigen and JSON headers that many files include, compiled once for all modules (option
 // MSTSL_PCH). Files still include what they use: builds without it must pass, too.
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
