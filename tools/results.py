@@ -9,7 +9,8 @@ paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of `mstsl bench -
 real/METHOD_SEED.json), of
 tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, and for
 several methods on the same events baselines/SEED.json, without a magnetometer no_magnetometer/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
-real.json of tools/real_mapping.sh; update/SEED.json of tools/map_update.sh.
+real.json of tools/real_mapping.sh; update/SEED.json of tools/map_update.sh;
+ambiguity/SEED.json of tools/ambiguity_check.py.
 """
 import json
 import math
@@ -227,6 +228,20 @@ def update_table():
                   "median error of other drives before, after", "better, worse by 5 %"], rows)
 
 
+def ambiguity_table():
+    """What was foretold from the maps, and what the drives met: all of them, and where less or more was foretold."""
+    rows = []
+    for report in reports("ambiguity").values():
+        for building in report:
+            drives = sorted(building["drives"], key=lambda drive: drive["foretold"])
+            for name, group in (("all", drives), ("the worse half", drives[:len(drives) // 2]),
+                                ("the better half", drives[len(drives) // 2:])):
+                rows.append([building["world"] if name == "all" else "", name, str(len(group)),
+                             f"{100 * sum(drive['foretold'] for drive in group) / len(group):.0f} %",
+                             rate([{"hits": sum(drive["right"] for drive in group), "of": len(group)}])])
+    return table(["building", "starts", "drives", "foretold", "answered rightly"], rows)
+
+
 def method_reports():
     """Those in which several methods heard the same events, and what is to be said of all their places."""
     return ([("", report) for report in reports("baselines").values()] +
@@ -245,7 +260,7 @@ def losses_list():
     return "\n".join(f"- {loss}" for loss in losses)
 
 
-TABLES = {"trust": trust_table, "losses": losses_list, "paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
+TABLES = {"trust": trust_table, "losses": losses_list, "ambiguity": ambiguity_table, "paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
           "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "mapping": mapping_table,
           "mapping_real": mapping_real_table, "update": update_table}
 

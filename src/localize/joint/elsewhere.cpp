@@ -32,7 +32,7 @@ double Elsewhere::update_by_field(const Station& station) {
   by_state.block<3, 3>(0, kMapError) = base_R_start;
   const Eigen::Vector3d off = station.base_field_uT - by_state * state_;
   const Eigen::Matrix3d noise =
-      (station.variance_uT2 + square(model_.station_sigma_uT)) * Eigen::Matrix3d::Identity();
+      reading_variance(station, model_, news_of(station, model_)) * Eigen::Matrix3d::Identity();
   const Surprise surprise(by_state * covariance_ * by_state.transpose() + noise, off);
   state_ += correct(covariance_, by_state, surprise);
   return surprise.log_density();

@@ -22,6 +22,18 @@ inline Eigen::Matrix3d about_z(double yaw_rad) {
   return r;
 }
 
+/// What part of a station's errors was not there at the last one (0 .. 1): none while the robot turns on the
+/// spot.
+inline double news_of(const Station& station, const FieldModel& model) {
+  return 1.0 - std::exp(-2.0 * station.since_last_m / model.error_own_length_m);
+}
+
+/// Variance of a station's reading (uT^2) whatever the map says.
+inline double reading_variance(const Station& station, const FieldModel& model, double news) {
+  return station.variance_uT2 + square(model.station_sigma_uT) +
+         (1.0 - news) * square(model.turning_sigma_uT);
+}
+
 /// How far an observation is off what was expected, judged by Student's t with so many degrees of freedom:
 /// fields beside strong steel are off by ten standard deviations, and by a Gaussian such a reading would
 /// decide between two places that both fail to explain it.

@@ -82,12 +82,12 @@ void predict(Mode& mode, const Pose2& last_T_base, const Eigen::Matrix3d& motion
   mode.map_T_base = mode.map_T_base * last_T_base;
 }
 
-void ErrorScale::learn(double squared, double way_m, double length_m) {
+void ErrorScale::learn(double squared, double way_m, double length_m, double news) {
   constexpr double kMost = 30.0;  // one wild station is one, not a rule
   const double kept = std::exp(-way_m / length_m);
   const ErrorScale before;
-  weight = before.weight + kept * (weight - before.weight) + 3.0;
-  squares = before.squares + kept * (squares - before.squares) + std::min(squared, kMost);
+  weight = before.weight + kept * (weight - before.weight) + 3.0 * news;
+  squares = before.squares + kept * (squares - before.squares) + std::min(squared, kMost) * news;
 }
 
 double update_by_field(Mode& mode, const Station& station, const FieldSampler& field,
@@ -96,14 +96,17 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   const Eigen::Matrix3d base_R_map = e.by_state.block<3, 3>(0, kMapError);
   // Where the map is worse than it claims, its error is larger and has to be followed; where it is better,
   // the claim stands, and only what it expects of a station is less.
-  const double worse = std::max(1.0, mode.scale.factor()), better = std::min(1.0, mode.scale.factor());
+  const double worse = std::max(1.0, mode.scale.factor());
+  // Where the sensor hardly moved the map is off by what it was off by before: nothing new is told of the
+  // map.
+  const double news = news_of(station, model);
+  const double better = std::lerp(1.0, std::min(1.0, mode.scale.factor()), news);
   const Eigen::Vector3d error_uT2 = worse * e.error_variance_uT2;
   // Where the map knows nothing its error is the field itself: as smooth, and changing as fast.
-  const Eigen::Vector3d own_uT2 = model.error_own_share * (1.0 - e.unmapped) * e.error_variance_uT2;
+  const Eigen::Vector3d own_uT2 = news * model.error_own_share * (1.0 - e.unmapped) * e.error_variance_uT2;
   const double length_m = std::lerp(model.error_length_m, field.length_m(), e.unmapped);
-  const Eigen::Matrix3d noise =
-      (station.variance_uT2 + square(model.station_sigma_uT)) * Eigen::Matrix3d::Identity() +
-      base_R_map * own_uT2.asDiagonal() * base_R_map.transpose();
+  const Eigen::Matrix3d noise = reading_variance(station, model, news) * Eigen::Matrix3d::Identity() +
+                                base_R_map * own_uT2.asDiagonal() * base_R_map.transpose();
 
   // Where the map is good its error wanders on; where steel was moved it is anything, and goes on from there.
   Mode mapped = mode, changed = mode;
@@ -132,7 +135,8 @@ double update_by_field(Mode& mode, const Station& station, const FieldSampler& f
   shift_pose(likelier,
              correct(likelier.covariance, e.by_state, if_changed > if_mapped ? as_changed : as_mapped));
   likelier.changed = std::exp(if_changed - log_density);
-  likelier.scale.learn(if_changed > if_mapped ? 3.0 : worse * as_mapped.squared, way_m, model.scale_length_m);
+  likelier.scale.learn(if_changed > if_mapped ? 3.0 : worse * as_mapped.squared, way_m, model.scale_length_m,
+                       news);
   mode = likelier;
   return log_density;
 }

@@ -27,8 +27,9 @@ struct ErrorScale {
   double weight = 4.0, squares = 4.0;  ///< numbers of deviations, and their squares in variances
 
   double factor() const { return squares / weight; }
-  /// Three deviations whose squares sum to `squared`, `way_m` after the last.
-  void learn(double squared, double way_m, double length_m);
+  /// Three deviations whose squares sum to `squared`, `way_m` after the last; `news` is what part of them (0
+  /// .. 1) was not told there already.
+  void learn(double squared, double way_m, double length_m, double news);
 };
 
 struct Mode {
@@ -64,6 +65,11 @@ struct FieldModel {
   /// centimetres, and a pose is not known to centimetres. 0.06 to 0.2 on held-out lanes. None where the map
   /// knows nothing: the error is then the field.
   double error_own_share = 0.12;
+  /// Way (m) after which that part is another: stations taken while the robot turns on the spot are off by
+  /// the same.
+  double error_own_length_m = 0.04;
+  /// What is off otherwise while it turns on the spot (uT): soft iron of 2 %, a floor that tilts by 1 deg.
+  double turning_sigma_uT = 0.7;
   /// Steel that was moved makes the map useless for a while: how often on the way that begins, one in so many
   /// metres, and for how long it lasts: the length of a parked car, half that of a rack.
   double change_every_m = 8.0;
