@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kSmall =
-    "bench --protocol hard --worlds office --cases none,people --runs 2 --length 3 --beams 181 --method "
+    "bench --protocol hard --worlds office --cases sparse-survey --runs 2 --length 3 --beams 181 --method "
     "joint "
     "--replays 1 --seed 51 --threads 1 -o ";
 
@@ -38,16 +38,17 @@ TEST(Bench, SeveralProcessesMakeTheSameResultsAsOne) {
                            "hard_fix_errors.svg", "hard_fix_disturbances.svg", "hard_fix_reliability.svg"})
     EXPECT_EQ(content(one / name), content(two / name)) << name;
   EXPECT_TRUE(fs::exists(two / "runs.1.jsonl")) << "the other did nothing";
-  EXPECT_NE(content(one / "hard_fix_worlds.svg").find("office"), std::string::npos);
+  EXPECT_NE(content(one / "hard_fix_worlds.svg").find("<svg"), std::string::npos);
 }
 
 TEST(Bench, AFailureOfOneIsToldOnce) {
   if (std::string(MSTSL_MPIRUN).empty()) GTEST_SKIP() << "built without MPI";
   const Printed failed = run_shell(mpirun(2, std::string(MSTSL_APP) + " " + kSmall + "/proc/nowhere"));
   EXPECT_NE(failed.exit_status, 0);
-  const auto first = failed.text.find("mstsl: error");
+  const std::string said = "mstsl: /proc/nowhere";
+  const auto first = failed.text.find(said);
   EXPECT_NE(first, std::string::npos) << failed.text;
-  EXPECT_EQ(failed.text.find("mstsl: error", first + 1), std::string::npos) << failed.text;
+  EXPECT_EQ(failed.text.find(said, first + 1), std::string::npos) << failed.text;
 }
 
 TEST(Bench, RefusesToBeStartedSeveralTimesWithoutMpi) {
