@@ -17,14 +17,17 @@ bool is_total(const HardRow& row) { return row.world == "*" && row.disturbance =
 /// Success of each method, where the rows of interest are told apart by one of their names.
 viz::BarPlot success_by(const std::vector<HardRow>& rows, const char* what, std::string HardRow::*name,
                         std::string HardRow::*other) {
-  viz::BarPlot plot{fmt::format("right pose within 10 m, by {}", what), "", {"%", 0.0, 100.0}, {}, {}};
+  viz::BarPlot plot{
+      fmt::format("right pose within 10 m, by {} (95 % intervals)", what), "", {"%", 0.0, 100.0}, {}, {}};
   for (const HardRow& row : rows) {
     if (row.*name == "*" || row.*other != "*") continue;
     if (std::ranges::find(plot.categories, row.*name) == plot.categories.end())
       plot.categories.push_back(row.*name);
     auto group = std::ranges::find(plot.groups, row.method, &viz::Group::name);
-    if (group == plot.groups.end()) group = plot.groups.insert(group, viz::Group{row.method, {}});
+    if (group == plot.groups.end()) group = plot.groups.insert(group, viz::Group{row.method, {}, {}});
+    const Interval interval = wilson_interval(row.success);
     group->values.push_back(100 * row.success.share());
+    group->bounds.push_back({100 * interval.low, 100 * interval.high});
   }
   return plot;
 }
@@ -43,7 +46,7 @@ viz::BoxPlot errors(const std::vector<HardRow>& rows) {
   viz::BoxPlot plot{"error of right runs' poses", {"cm", 0.0, 20.0}, {}};
   for (const HardRow& row : rows) {
     if (!is_total(row)) continue;
-    viz::Group& group = plot.groups.emplace_back(viz::Group{row.method, {}});
+    viz::Group& group = plot.groups.emplace_back(viz::Group{row.method, {}, {}});
     for (const double error_m : row.error_m) group.values.push_back(100 * error_m);
   }
   return plot;

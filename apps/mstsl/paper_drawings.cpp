@@ -105,9 +105,13 @@ Figure6 figure6(const ProtocolResult& result) {
       if (const JudgedAnswer* first = run.evaluation.first()) error_m.push_back(first->error.position_m);
     }
     const std::string name(to_string(model));
-    viz::Group& bars = figure.success.groups.emplace_back(viz::Group{name, {}});
-    for (const Rate& rate : rates) bars.values.push_back(100 * rate.share());
-    figure.distance.groups.push_back({name, std::move(cld_m)});
+    viz::Group& bars = figure.success.groups.emplace_back(viz::Group{name, {}, {}});
+    for (const Rate& rate : rates) {
+      const Interval interval = wilson_interval(rate);
+      bars.values.push_back(100 * rate.share());
+      bars.bounds.push_back({100 * interval.low, 100 * interval.high});
+    }
+    figure.distance.groups.push_back({name, std::move(cld_m), {}});
     figure.error.series.push_back(viz::distribution(name, std::move(error_m), runs));
   }
   return figure;

@@ -23,6 +23,7 @@ constexpr std::array kDisturbances{
     Disturbance{.name = "weak-field", .weak_field = true},
     Disturbance{.name = "sparse-survey", .sparse = true},
     Disturbance{.name = "tilt", .tilt = true},
+    Disturbance{.name = "turn", .turn = true},
     Disturbance{.name = "all",
                 .heading = true,
                 .bias = true,
@@ -63,6 +64,7 @@ sim::RobotOptions robot_for(const Disturbance& disturbance, double scan_rate_hz,
     const double roll = own.uniform(-0.35, 0.35), pitch = own.uniform(-0.35, 0.35);
     robot.rig = sim::tilted_rig({roll, pitch, own.uniform(-kPi, kPi)});
   }
+  if (disturbance.turn) robot.motion.initial_turn_rad = random.fork(1).uniform(-kPi, kPi);
   if (disturbance.bias) robot.magnetometer.bias_sigma_uT = 5.0;
   // Both motors' fields at the usual speed, where they point the same way: 5 uT.
   if (disturbance.motor) robot.magnetometer.motor_uT_per_m_s = 2.5 / robot.motion.speed_m_s;

@@ -21,6 +21,7 @@ struct Disturbance {
   bool weak_field = false;  ///< SD of the field along the lanes at most 3 uT per axis
   bool sparse = false;      ///< survey lines 1 m apart; else 0.5 m
   bool tilt = false;        ///< magnetometer mounted askew (the rig says how)
+  bool turn = false;        ///< turns on the spot by any angle before it drives
   bool blind = false;       ///< no magnetometer in the runs
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "plot_frame.hpp"
 #include "theme.hpp"
@@ -142,6 +143,15 @@ Canvas draw_plot(const BarPlot& plot, PlotSize size) {
       bar.extend(frame.to_px(x + 0.04 * width, 0.0));
       bar.extend(frame.to_px(x + 0.96 * width, value));
       canvas.rectangle(bar, palette(g));
+      if (i >= plot.groups[g].bounds.size()) continue;
+      const auto [low, high] = plot.groups[g].bounds[i];
+      const double middle = x + 0.5 * width, half = 0.12 * width;
+      for (const auto& [from, to] :
+           {std::pair{Eigen::Vector2d(middle, low), Eigen::Vector2d(middle, high)},
+            {Eigen::Vector2d(middle - half, low), Eigen::Vector2d(middle + half, low)},
+            {Eigen::Vector2d(middle - half, high), Eigen::Vector2d(middle + half, high)}})
+        canvas.polyline({frame.to_px(from.x(), from.y()), frame.to_px(to.x(), to.y())},
+                        {theme::kInk, 1.5, {}});
     }
   return canvas;
 }

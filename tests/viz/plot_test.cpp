@@ -66,13 +66,14 @@ TEST(Plots, AreDrawnOfAnything) {
   EXPECT_GT(size_of(curves({{"a", {{1, 1}}, SeriesKind::kPoints}})),
             size_of(curves({{"a", {}, SeriesKind::kLine}})));
   const auto boxes = [](std::vector<double> values) {
-    return draw_plot(BoxPlot{"t", {"y", 0, 10}, {{"a", values}}});
+    return draw_plot(BoxPlot{"t", {"y", 0, 10}, {{"a", values, {}}}});
   };
   EXPECT_GT(size_of(boxes({1, 2, 3, 9, kNaN})), size_of(boxes({})));
   EXPECT_GT(size_of(boxes({7, 7, 7})), size_of(boxes({kNaN})));
-  const auto bars = [](std::vector<double> values) {
-    return draw_plot(BarPlot{"t", "x", {"y", -5, 5}, {"1", "2"}, {{"a", values}}});
+  const auto bars = [](std::vector<double> values, std::vector<Range> bounds = {}) {
+    return draw_plot(BarPlot{"t", "x", {"y", -5, 5}, {"1", "2"}, {{"a", values, bounds}}});
   };
+  EXPECT_GT(size_of(bars({1, -3}, {{0, 2}})), size_of(bars({1, -3})));
   EXPECT_GT(size_of(bars({1, -3})), size_of(bars({kNaN})));
   EXPECT_GT(size_of(draw_plot(CurvePlot{})), 1000u);
 }

@@ -23,8 +23,8 @@ enum class CaseSet {
 /// "fix", "kidnap", "long".
 std::string_view to_string(CaseSet set);
 
-/// What can be switched on, by name: "none", one disturbance each, "all" (every one but those that leave a
-/// sensor out), "no-magnetometer".
+/// What can be switched on, by name: "none", one disturbance each, "all" (every one but "turn" and those that
+/// leave a sensor out), "no-magnetometer".
 std::vector<std::string> disturbance_names();
 /// The worlds that the protocol is made for; any of sim::world_names() may be asked for.
 std::vector<std::string> hard_world_names();

@@ -39,9 +39,14 @@ struct CurvePlot {
   std::vector<Threshold> thresholds;
 };
 
+struct Range {
+  double low = 0.0, high = 0.0;
+};
+
 struct Group {
   std::string name;
   std::vector<double> values;
+  std::vector<Range> bounds = {};  ///< of each value, shown as a whisker on its bar; none if empty
 };
 
 /// A box for each group: median, quartiles, whiskers to the farthest value within 1.5 box lengths (Tukey),
