@@ -7,7 +7,7 @@
 A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Reports are those of `mstsl bench --protocol
 paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of `mstsl bench --protocol real` (real.json, as
 real/METHOD_SEED.json), of
-tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, and for
+tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, with cost_SET.json as hard_cost/SEED.json, and for
 several methods on the same events baselines/SEED.json, without a magnetometer no_magnetometer/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
 real.json of tools/real_mapping.sh; update/SEED.json of tools/map_update.sh;
 ambiguity/SEED.json of tools/ambiguity_check.py.
@@ -253,6 +253,13 @@ def trust_table():
                  standing.trust_rows(method_reports()))
 
 
+def hard_facts_list():
+    costs = reports("hard_cost")
+    facts = [fact for report in reports("hard").values() if report["set"] == "fix"
+             for fact in standing.hard_facts(report, costs.get(str(report["seed"])))]
+    return "\n".join(f"- {fact}" for fact in facts)
+
+
 def losses_list():
     losses = [loss for report in reports("hard").values() for loss in standing.hard_losses(report)]
     losses += [loss for name, data_sets in reports("real").items() for loss in standing.real_losses(name, data_sets)]
@@ -260,7 +267,7 @@ def losses_list():
     return "\n".join(f"- {loss}" for loss in losses)
 
 
-TABLES = {"trust": trust_table, "losses": losses_list, "ambiguity": ambiguity_table, "paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
+TABLES = {"trust": trust_table, "losses": losses_list, "hard_facts": hard_facts_list, "ambiguity": ambiguity_table, "paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
           "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "mapping": mapping_table,
           "mapping_real": mapping_real_table, "update": update_table}
 

@@ -97,3 +97,24 @@ def place_losses(label, report):
             if as_often and sooner is not None and later is not None and sooner < 0.75 * later:
                 yield (f"{place}{label}: {method} is right as often and sooner, after {sooner:.1f} m where joint takes "
                        f"{later:.1f} m (medians).")
+
+
+def hard_facts(report, cost):
+    """What the whole of a hard run says, in sentences."""
+    row = next(r for r in report["rows"] if r["method"] == "joint" and (r["world"], r["disturbance"]) == ("*", "*"))
+    first, nees, error = row["first_wrong_at_0.999"], row["nees"], row["error_after_fix_m"]
+    yield (f"**{row['success']['hits']:,} of {row['success']['of']:,} first poses are right and within 10 m.** Runs with any wrong pose "
+           f"claimed at 0.999: {row['runs_wrong_at_0.999']['hits']}, at 0.99: {row['runs_wrong_at_0.99']['hits']}. First claims at 0.999 that "
+           f"were wrong: {counts(first)}, so at most {100 * first['wilson_95'][1]:.1f} % (95 %).")
+    yield (f"After the fix {100 * error['median']:.1f} cm and {math.degrees(row['error_after_fix_rad']['median']):.2f} deg (median), "
+           f"{100 * error['p95']:.1f} cm and {math.degrees(row['error_after_fix_rad']['p95']):.2f} deg (95 %).")
+    yield (f"Covariances: NEES {nees['mean']:.2f} on average (3 if true), {100 * nees['within_95']['hits'] / nees['within_95']['of']:.1f} % of "
+           "poses within their 95 % ellipsoid: on the modest side.")
+    yield f"False alarms: {row['false_alarms']} right poses withdrawn in {row['right_km']:.1f} km (aim: less than 1 in 10 km)."
+    if cost:
+        of = next(r for r in cost["rows"] if r["method"] == "joint" and (r["world"], r["disturbance"]) == ("*", "*"))
+        number = lambda ms: f"{ms:.0f}" if ms >= 10 else f"{ms:.2g}"
+        ms = lambda c: (f"{number(c['median_ms'])} ms median, {number(c['p95_ms'])} at 95 %, {number(c['p99_ms'])} at 99 %, "
+                        f"{number(c['max_ms'])} at worst")
+        yield (f"CPU of a scan (541 beams, 10 Hz, one core, a machine busy with other work): searching {ms(of['searching'])} (the first search, "
+               f"over the whole map); tracking {ms(of['tracking'])} (searches anew). Peak memory of the whole protocol: {cost['peak_memory_mb']:.0f} MB.")
