@@ -98,7 +98,7 @@ std::optional<Error> wrong_with(const HardProtocolOptions& options) {
 }
 
 void run_group(const Group& group, const HardProtocolOptions& options, Piecework& work) {
-  work.tell("survey and map", 0.0);
+  work.tell("survey and map", work.share());
   const Result<HardSite> site = make_site(options, group.world, group.building, group.kind);
   if (!site) return work.fail(site.error());
   parallel_for(group.tasks.size(), options.threads, [&](std::size_t i) {

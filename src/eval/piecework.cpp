@@ -6,19 +6,23 @@
 
 namespace mstsl {
 
+double Piecework::share() {
+  const std::scoped_lock lock(mutex_);
+  return expected_ == 0 ? 1.0 : static_cast<double>(done_) / static_cast<double>(expected_);
+}
+
 void Piecework::tell(const char* what, double share) {
   const std::scoped_lock lock(mutex_);
   if (progress_ && !stopped_ && !progress_(what, share)) stopped_ = true;
 }
 
 void Piecework::finish(const std::vector<std::pair<std::string, std::string>>& contents) {
-  double share = 1.0;
   {
     const std::scoped_lock lock(mutex_);
     for (const auto& [name, content] : contents) store_.add(name, content);
-    share = static_cast<double>(++done_) / static_cast<double>(expected_);
+    ++done_;
   }
-  tell("runs", share);
+  tell("runs", share());
 }
 
 void Piecework::fail(Error error) {

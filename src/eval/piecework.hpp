@@ -25,6 +25,8 @@ class Piecework {
 
   /// How many pieces there are for this process to make.
   void expect(std::size_t pieces) { expected_ = pieces; }
+  /// How many of them are made, 0 .. 1.
+  double share();
   /// Something is being done that is no piece, and how far it is.
   void tell(const char* what, double share);
   /// Keeps what one piece gave: contents by name.
