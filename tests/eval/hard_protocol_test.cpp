@@ -193,8 +193,8 @@ TEST(HardProtocol, KeepsRunsAndIsTheSameAtAnyNumberOfThreads) {
   fs::remove_all(folder);
   HardProtocolOptions options;
   options.worlds = {"office"};
-  options.disturbances = {"none", "people"};
-  options.runs = 2;
+  options.disturbances = {"sparse-survey"};  // the quickest to survey
+  options.runs = 4;
   options.length_m = 4.0;
   options.beams = 181;
   options.folder = folder;
