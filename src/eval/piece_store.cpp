@@ -102,6 +102,7 @@ Result<void> PieceStore::gather(const Crew& crew, const Result<void>& mine) {
       pieces_.insert_or_assign(name, std::move(content));
     }
   }
+  if (!good()) return Error(fmt::format("{}: cannot be written; is the disk full?", path_.string()));
   return {};
 }
 
