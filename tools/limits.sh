@@ -17,7 +17,7 @@ point() {  # point NAME OPTION...: one point of a curve
   local name=$1
   shift
   [ -s "$out/$name/paper_$world.json" ] ||
-    "$mstsl" bench --protocol paper --world "$world" --seed "$seed" --quiet -o "$out/$name" "$@" >&2
+    "$mstsl" bench --protocol paper --world "$world" --seed "$seed" --fingerprints 0 --quiet -o "$out/$name" "$@" >&2
 }
 
 for bias in 0 0.3 1 3 5; do point "bias_$bias" --bias "$bias"; done

@@ -2,6 +2,8 @@
 #include <memory>
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "mstsl/eval/paper_protocol.hpp"
 
 #include "bench_hard.hpp"

@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "mstsl/core/result.hpp"
 #include "mstsl/eval/mapping_protocol.hpp"
 
 #include "session.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace mstsl::app {
 

@@ -3,6 +3,7 @@
 #include <system_error>
 #include <utility>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "mstsl/eval/protocol_report.hpp"
@@ -30,7 +31,7 @@ PaperProtocolOptions options_of(const Session& session, const PaperWish& wish, i
   options.build = build_hash();
   options.waypoints = wish.waypoints;
   options.runs_per_waypoint = runs;
-  options.survey.survey.fingerprints = wish.fingerprints;
+  options.survey.survey.fingerprints = wish.fingerprints.value_or(paper_fingerprints(world).value_or(0));
   options.survey.survey.lane_spacing_m = wish.lane_spacing_m;
   options.robot.magnetometer.bias_sigma_uT = wish.bias_uT;
   options.moved_fraction = wish.moved;
@@ -83,9 +84,8 @@ void add_paper_options(CLI::App& command, PaperWish& wish) {
       ->group(group);
   command
       .add_option("--fingerprints", wish.fingerprints,
-                  "Survey so many (paper: 67238 and 118688); 0: one pass over every lane")
+                  "Survey so many; 0: one pass over every lane (default: the paper's 67238 and 118688)")
       ->check(CLI::Range(0, 10'000'000))
-      ->capture_default_str()
       ->group(group);
   command.add_option("--lane-spacing", wish.lane_spacing_m, "Between the survey's parallel lines, m")
       ->check(CLI::Range(0.05, 20.0))

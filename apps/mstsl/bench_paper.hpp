@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "mstsl/eval/paper_protocol.hpp"
 
 #include "session.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace mstsl::app {
 
@@ -18,7 +20,7 @@ struct PaperWish {
   std::string world = "both";
   std::vector<std::string> models{"gpr", "bilinear", "fingerprint"};
   int waypoints = PaperProtocolOptions{}.waypoints;
-  std::size_t fingerprints = 0;
+  std::optional<std::size_t> fingerprints;  ///< the paper's, if absent
   double lane_spacing_m = sim::SurveyOptions{}.lane_spacing_m;
   double bias_uT = sim::MagnetometerOptions{}.bias_sigma_uT;
   double moved = PaperProtocolOptions{}.moved_fraction;

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "session.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace mstsl::app {
 

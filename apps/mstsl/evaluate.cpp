@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "mstsl/core/trajectory.hpp"

@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "mstsl/io/recording_info.hpp"

@@ -1,5 +1,7 @@
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "calibration_option.hpp"
 #include "map_ambiguity.hpp"
 #include "map_magnetic.hpp"

@@ -14,8 +14,8 @@
 #include "mstsl/io/map_server.hpp"
 #include "mstsl/viz/field_sheet.hpp"
 
-#include "calibration_option.hpp"
 #include "interrupt.hpp"
+#include "load_calibration.hpp"
 #include "map_report.hpp"
 #include "output_paths.hpp"
 #include "progress.hpp"

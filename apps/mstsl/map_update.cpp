@@ -13,8 +13,8 @@
 #include "mstsl/magnetic/field_update.hpp"
 #include "mstsl/viz/picture.hpp"
 
-#include "calibration_option.hpp"
 #include "interrupt.hpp"
+#include "load_calibration.hpp"
 #include "located_drives.hpp"
 #include "output_paths.hpp"
 #include "progress.hpp"

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <functional>
 
-#include <CLI/CLI.hpp>
-
 #include "mstsl/core/crew.hpp"
 #include "mstsl/core/parallel.hpp"
 #include "mstsl/core/result.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace mstsl::app {
 

@@ -1,23 +1,14 @@
 #include "survey_reader.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
-#include "mstsl/io/recording_info.hpp"
-
 #include "interrupt.hpp"
+#include "log_span.hpp"
 #include "progress.hpp"
 
 namespace mstsl::app {
 namespace {
-
-/// When a log begins and how long it lasts, for the progress bar; nothing where it does not say.
-std::optional<std::pair<Stamp, double>> extent(const std::filesystem::path& log) {
-  const auto info = io::describe_recording(log);
-  if (!info || !info->first || !info->last) return std::nullopt;
-  return std::pair{*info->first, std::max(*info->last - *info->first, 1e-3)};
-}
 
 /// Hands a collector a log's readings, and the poses of a track between them if there is one.
 class Collecting {
@@ -62,7 +53,7 @@ Result<SurveyLogs> collect_fingerprints(const Session& session,
   field_and_poses.topics.scan.clear();
   field_and_poses.topics.odometry.clear();
   for (std::size_t k = 0; k < logs.size(); ++k) {
-    const auto span = extent(logs[k]);
+    const auto span = span_of({logs[k]});
     std::optional<Collecting> collecting;
     const auto on_header = [&](const io::RecordingHeader& header) {
       survey.magnetometer_height_m = header.rig.base_T_magnetometer.translation().z();
@@ -74,7 +65,7 @@ Result<SurveyLogs> collect_fingerprints(const Session& session,
     };
     const auto on_event = [&](const SensorEvent& event) {
       collecting->observe(event);
-      const double share = span ? std::clamp((stamp_of(event) - span->first) / span->second, 0.0, 1.0) : 0.5;
+      const double share = span ? span->share(stamp_of(event)) : 0.5;
       progress.show((static_cast<double>(k) + share) / static_cast<double>(logs.size()));
       return !interrupted();
     };
@@ -82,9 +73,8 @@ Result<SurveyLogs> collect_fingerprints(const Session& session,
     if (!played) return played.error();
     if (interrupted()) return Error("interrupted; nothing was written");
     if (collecting) collecting->end();
-    const double length_s = span ? span->second : 0.0;
     survey.drives.push_back(
-        {logs[k].filename().string(), span ? span->first : Stamp{}, span ? span->first + length_s : Stamp{}});
+        {logs[k].filename().string(), span ? span->begin : Stamp{}, span ? span->end() : Stamp{}});
     for (const auto& [what, count] : played->problems) survey.problems[what] += count;
     for (const std::string& warning : played->warnings) survey.warnings.push_back(warning);
   }
@@ -102,9 +92,9 @@ Result<SurveyLogs> read_survey(const Session& session, const std::vector<std::fi
   {
     Progress progress("tracking", session.quiet);
     for (std::size_t k = 0; k < logs.size(); ++k) {
-      const auto span = extent(logs[k]);
+      const auto span = span_of({logs[k]});
       Result<SurveyTrack> track = track_survey(logs[k], play, starts[k], [&](Stamp at) {
-        const double share = span ? std::clamp((at - span->first) / span->second, 0.0, 1.0) : 0.5;
+        const double share = span ? span->share(at) : 0.5;
         progress.show((static_cast<double>(k) + share) / static_cast<double>(logs.size()));
       });
       if (!track) return track.error();

@@ -1,5 +1,7 @@
 #include "topic_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace mstsl::app {
 
 void add_topic_options(CLI::App& command, io::PlayOptions& options) {

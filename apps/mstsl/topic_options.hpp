@@ -1,8 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "mstsl/io/recording.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace mstsl::app {
 

@@ -20,22 +20,12 @@ constexpr double kNearest_m = 5.0, kFarthest_m = 50.0;  // issue: moved 5-50 m
 constexpr double kCarry_m_s = 1.0;
 constexpr double kMostHidden = 0.3;  // issue: people hiding up to 30 % of the beams
 
-/// On and on to random places until the route is long enough.
 Result<sim::Route> long_route(const sim::World& world, const sim::RunOptions& options, const Random& random) {
   const auto start = sim::random_waypoint(world, options, random.fork(kRoute));
   if (!start) return start.error();
-  Random own = random;
-  sim::Route route{own.uniform(-kPi, kPi), {*start}};
-  double length_m = 0.0;
-  for (std::uint64_t leg = 0; length_m < options.length_m; ++leg) {
-    const auto goal = sim::random_waypoint(world, options, random.fork(kLeg).fork(leg));
-    if (!goal) return goal.error();
-    const auto way = sim::plan_path(world, route.waypoints_m.back(), *goal, options.path);
-    if (!way) return way.error();
-    length_m += length(sim::Route{0.0, *way});
-    route.waypoints_m.insert(route.waypoints_m.end(), way->begin() + 1, way->end());
-  }
-  return sim::truncated(route, options.length_m);
+  auto route = sim::tour_from(world, *start, options, random.fork(kLeg));
+  if (route) route->start_yaw_rad = random.fork(kRoute).uniform(-kPi, kPi);
+  return route;
 }
 
 /// A route that starts where somebody would set the robot down.

@@ -1,7 +1,5 @@
 #include "mapping_drive.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "mstsl/core/angles.hpp"
@@ -13,22 +11,12 @@ namespace {
 
 constexpr std::uint64_t kTourStream = 2, kDriveStream = 3;
 
-/// From place to place, each drawn by chance, on the shortest ways.
 Result<sim::Route> tour(const sim::World& world, double length_m, const Random& random) {
-  sim::Route route;
-  auto at = sim::random_waypoint(world, {}, random.fork(0));
-  if (!at) return at.error();
-  route.waypoints_m.push_back(*at);
-  for (std::uint64_t k = 1; sim::length(route) < length_m; ++k) {
-    const auto to = sim::random_waypoint(world, {}, random.fork(k));
-    if (!to) return to.error();
-    const auto way = sim::plan_path(world, route.waypoints_m.back(), *to);
-    if (!way) return way.error();
-    route.waypoints_m.insert(route.waypoints_m.end(), way->begin() + 1, way->end());
-  }
-  const Eigen::Vector2d first = route.waypoints_m[1] - route.waypoints_m[0];
-  route.start_yaw_rad = std::atan2(first.y(), first.x());
-  return sim::truncated(route, length_m);
+  sim::RunOptions options;
+  options.length_m = length_m;
+  const auto start = sim::random_waypoint(world, options, random.fork(0));
+  if (!start) return start.error();
+  return sim::tour_from(world, *start, options, random);
 }
 
 Result<sim::RobotOptions> robot_named(const std::string& name) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "eval/paper_figures.hpp"
 #include "judged_json.hpp"
 #include "paper_setting.hpp"
 #include "paper_start.hpp"
@@ -85,6 +86,12 @@ Result<std::vector<RunTrace>> traces_of(const PaperSetting& setting, const Paper
 }
 
 }  // namespace
+
+std::optional<std::size_t> paper_fingerprints(std::string_view world) {
+  const auto figures = paper_figures(world);
+  if (!figures) return std::nullopt;
+  return figures->fingerprints;
+}
 
 Result<ProtocolResult> run_paper_protocol(const PaperProtocolOptions& options) {
   TwoStepOptions two_step = options.two_step;

@@ -1,6 +1,7 @@
 #include "mstsl/sim/run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-enum RunStream : std::uint64_t { kWaypoint = 1, kRoute = 2 };
+enum RunStream : std::uint64_t { kWaypoint = 1, kRoute = 2, kTour = 3 };
 constexpr int kTries = 200;
 
 bool is_roomy(const World& world, const Vector2d& point_m, double clearance_m) {
@@ -70,10 +71,41 @@ Result<Route> route_from(const World& world, const Vector2d& waypoint_m, const R
                world.name() + "'; ask for a shorter run");
 }
 
+Result<Route> tour_from(const World& world, const Vector2d& waypoint_m, const RunOptions& options,
+                        const Random& random) {
+  Route route{0.0, {waypoint_m}};
+  double length_m = 0.0;
+  int in_vain = 0;
+  for (std::uint64_t leg = 1; length_m < options.length_m; ++leg) {
+    const auto goal = random_waypoint(world, options, random.fork(leg));
+    if (!goal) return goal.error();
+    const auto way = plan_path(world, route.waypoints_m.back(), *goal, options.path);
+    const double way_m = way ? length(Route{0.0, *way}) : 0.0;
+    constexpr double kSomewhere_m = 0.1;
+    if (way_m < kSomewhere_m) {
+      if (++in_vain < kTries) continue;
+      return Error("in world '" + world.name() + "' no way leads on from (" +
+                   std::to_string(route.waypoints_m.back().x()) + ", " +
+                   std::to_string(route.waypoints_m.back().y()) + ")");
+    }
+    in_vain = 0, length_m += way_m;
+    route.waypoints_m.insert(route.waypoints_m.end(), way->begin() + 1, way->end());
+  }
+  if (route.waypoints_m.size() > 1) {
+    const Vector2d ahead = route.waypoints_m[1] - route.waypoints_m[0];
+    route.start_yaw_rad = std::atan2(ahead.y(), ahead.x());
+  }
+  return truncated(route, options.length_m);
+}
+
 Result<Route> random_run(const World& world, const RunOptions& options, const Random& random) {
   const auto waypoint = random_waypoint(world, options, random.fork(kWaypoint));
   if (!waypoint) return waypoint.error();
-  return route_from(world, *waypoint, options, random.fork(kRoute));
+  const auto route = route_from(world, *waypoint, options, random.fork(kRoute));
+  if (route) return route;
+  auto tour = tour_from(world, *waypoint, options, random.fork(kTour));
+  if (tour) tour->start_yaw_rad = random.fork(kRoute).uniform(-kPi, kPi);
+  return tour;
 }
 
 }  // namespace mstsl::sim

@@ -25,14 +25,12 @@ struct Drive {
     robot.lidar.beams = 361;
     rig = robot.rig;
     const Random random(seed);
-    sim::Route route;
-    route.waypoints_m.push_back(must(sim::random_waypoint(world, {}, random.fork(0))));
-    for (std::uint64_t k = 1; sim::length(route) < length_m; ++k) {
-      const auto way = must(sim::plan_path(world, route.waypoints_m.back(),
-                                           must(sim::random_waypoint(world, {}, random.fork(k)))));
-      route.waypoints_m.insert(route.waypoints_m.end(), way.begin() + 1, way.end());
-    }
-    sim::drive(world, robot, sim::truncated(route, length_m), Stamp{}, random.fork(999),
+    sim::RunOptions run;
+    run.length_m = length_m;
+    const auto start = must(sim::random_waypoint(world, run, random.fork(0)));
+    sim::Route route = must(sim::tour_from(world, start, run, random));
+    route.start_yaw_rad = 0.0;
+    sim::drive(world, robot, route, Stamp{}, random.fork(999),
                {[&](const SensorEvent& event) { events.push_back(event); },
                 [&](const PoseReading& pose) { truth.add(pose.stamp, pose.map_T_base); }});
   }

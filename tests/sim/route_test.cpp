@@ -85,10 +85,20 @@ TEST(RandomRun, IsReachableInEveryWorld) {
   }
 }
 
-TEST(RandomRun, SaysWhenNoRouteIsSoLong) {
+TEST(RandomRun, ToursWhereNoSingleWayIsSoLong) {
+  const World world = corridor();
   RunOptions options;
-  options.length_m = 1e4;
-  const auto route = random_run(corridor(), options, Random(1));
+  options.length_m = 1000.0;
+  const Route route = must(random_run(world, options, Random(1)));
+  EXPECT_NEAR(length(route), 1000.0, 1e-6);
+  EXPECT_GT(least_clearance(world, route.waypoints_m), 0.25);
+}
+
+TEST(RouteFrom, SaysWhenNoWayIsSoLong) {
+  const World world = corridor();
+  RunOptions options;
+  options.length_m = 1000.0;
+  const auto route = route_from(world, must(random_waypoint(world, options, Random(2))), options, Random(1));
   ASSERT_FALSE(route);
   EXPECT_NE(route.error().message().find("shorter"), std::string::npos);
 }

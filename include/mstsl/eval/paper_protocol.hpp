@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mstsl/core/crew.hpp"
@@ -71,6 +72,10 @@ struct ProtocolResult {
   std::shared_ptr<const TracedPlace> place;  ///< with the field by the first model
   std::vector<RunTrace> traces;  ///< of the first run from each waypoint, a method a model; the leader's only
 };
+
+/// How many fingerprints the paper's survey took of the place that a simulated world stands for; nothing for
+/// the others.
+std::optional<std::size_t> paper_fingerprints(std::string_view world);
 
 /// Runs it. The same result at any number of threads and processes. Errors: a world that is not there, a
 /// survey or map that cannot be made, or an end asked for by `progress`.
