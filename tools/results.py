@@ -8,8 +8,8 @@ A table stands between the lines "<!-- table NAME -->" and "<!-- end -->". Repor
 paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of `mstsl bench --protocol real` (real.json, as
 real/METHOD_SEED.json), of
 tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, with cost_SET.json as hard_cost/SEED.json, and for
-several methods on the same events baselines/SEED.json, without a magnetometer no_magnetometer/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
-real.json of tools/real_mapping.sh; update/SEED.json of tools/map_update.sh;
+several methods on the same events baselines/SEED.json, those of an ordinary building ordinary/SEED.json, without a magnetometer no_magnetometer/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
+real.json of tools/real_mapping.sh, mrpt.json of bench/mrpt_slam.sh; update/SEED.json of tools/map_update.sh;
 ambiguity/SEED.json of tools/ambiguity_check.py.
 """
 import json
@@ -156,6 +156,18 @@ def baselines_table():
                   "first pose wrong, or late", "CLD median, 95 %"], rows)
 
 
+def ordinary_table():
+    """LiDAR-only methods in an ordinary building, undisturbed: are they set as somebody who means them well would?"""
+    rows = []
+    for report in reports("ordinary").values():
+        for row in report["rows"]:
+            if (row["world"], row["disturbance"]) == ("*", "*"):
+                distance = row["correct_distance_m"]
+                rows.append([row["method"], f"{row['success']['hits']} of {row['runs']}", rate([row["success"]]),
+                             f"{row['runs_wrong_at_0.999']['hits']}", f"{distance['median']:.1f}, {distance['p95']:.1f} m"])
+    return table(["method", "right within 10 m", "", "wrong at 0.999 (runs)", "CLD median, 95 %"], rows)
+
+
 def kidnap_table():
     rows = []
     for report in reports("hard").values():
@@ -183,9 +195,13 @@ def mapping_real_table():
     rows = []
     for log, report in reports("mapping")["real"]["logs"].items():
         truth = report["against_truth"]
-        rows.append([f"{log}, {report['driven_m']:.0f} m", str(report["loops"]["closed"]), f"{truth['ate_rms_m']:.3f} m",
-                     spread(truth["metre"]), spread(truth["loops"]), f"{report['cpu_s']:.1f} s"])
-    return table(["log", "loops", "rms after alignment", "a metre apart", "over loops", "CPU"], rows)
+        rows.append([f"{log}, {report['driven_m']:.0f} m", "mstsl", f"{truth['ate_rms_m']:.3f} m", spread(truth["metre"]),
+                     spread(truth["loops"]), f"{report['cpu_s']:.1f} s"])
+        for way in ("icp", "icp-best", "rbpf"):
+            other = reports("mapping")["mrpt"][f"{log}, {way}"]
+            rows.append(["", f"MRPT {way}", f"{other['rms_m']:.3f} m", spread(other["metre"]), spread(other["loops"]),
+                         f"{other['cpu_s']:.1f} s"])
+    return table(["log", "by", "rms after alignment", "a metre apart", "over loops", "CPU"], rows)
 
 
 def quantile(values, q):
@@ -268,7 +284,7 @@ def losses_list():
 
 
 TABLES = {"trust": trust_table, "losses": losses_list, "hard_facts": hard_facts_list, "ambiguity": ambiguity_table, "paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
-          "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "mapping": mapping_table,
+          "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "ordinary": ordinary_table, "mapping": mapping_table,
           "mapping_real": mapping_real_table, "update": update_table}
 
 

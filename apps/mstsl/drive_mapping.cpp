@@ -35,14 +35,14 @@ std::vector<Logs> drives_of(const DrivesWish& wish) {
   return drives;
 }
 
-enum class Reading { kOdometry, kField };
+enum class Reading { kOdometry, kField, kPose };
 
 bool all_hold(const Logs& logs, Reading kind, const std::string& topic) {
   return std::all_of(logs.begin(), logs.end(), [&](const fs::path& log) {
     const auto info = io::describe_recording(log);
     if (!info) return true;  // complained of when it is played
-    // A CARMEN log has no topics; it holds scans and odometry.
-    if (info->format == "CARMEN log") return kind == Reading::kOdometry;
+    // A CARMEN log has no topics; it holds scans, odometry and, if it was corrected, poses.
+    if (info->format == "CARMEN log") return kind != Reading::kField;
     return std::any_of(info->topics.begin(), info->topics.end(),
                        [&](const io::TopicInfo& t) { return t.name == topic && t.messages > 0; });
   });
@@ -90,6 +90,7 @@ class DriveMapper {
       return Error(
           "drives are joined by their magnetic field, and not all logs have it; map them one by one, or give "
           "--continuous if each log begins where the one before ended");
+    if (auto error = truth_is_missing()) return *std::move(error);
     for (std::size_t k = 0; k < drives_.size(); ++k)
       if (const auto error = add_drive(k)) return *error;
     MappedDrives mapped{.grid = {}, .track = *track_, .play = play_, .warnings = {}, .truth = {}};
@@ -104,6 +105,17 @@ class DriveMapper {
   }
 
  private:
+  /// Said before the work, not after it.
+  std::optional<Error> truth_is_missing() const {
+    for (const fs::path& log : wish_.truth_topic.empty() ? Logs{} : wish_.logs)
+      if (!all_hold({log}, Reading::kPose, wish_.truth_topic))
+        return Error(
+            fmt::format("{}: there is no pose under {} to hold the map against; `mstsl info` lists "
+                        "what the log has",
+                        log.string(), wish_.truth_topic));
+    return std::nullopt;
+  }
+
   SlamOptions options_of(const DrivesWish& wish) const {
     SlamOptions options = wish.slam;
     options.loops.use_field = !wish.without_field;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <span>
 
 #include <Eigen/LU>
 
@@ -12,27 +12,29 @@ namespace mstsl {
 
 using Eigen::Matrix3d;
 
-std::vector<std::size_t> LoopCloser::near(const PoseGraph& graph,
-                                          const std::vector<Matrix3d>& covariances) const {
-  constexpr std::size_t kMost = 2;
+std::vector<LoopCloser::Nearby> LoopCloser::near(const PoseGraph& graph) const {
   const Pose2& now = graph.pose(graph.size() - 1);
-  std::vector<std::pair<double, std::size_t>> found;
+  std::vector<Nearby> found;
+  std::vector<std::size_t> origins;
   for (std::size_t s = 0; s < store_.submaps().size(); ++s) {
     const Submap& submap = store_.submaps()[s];
     const bool just_now = submap.drive == store_.drive() &&
                           store_.last_metres().back().travelled_m - submap.end_m < options_.least_way_m;
     if (submap.keyframes.empty() || just_now) continue;
-    const Eigen::Vector2d here_m = inverse(graph.pose(submap.origin)) * now.position();
-    double distance_m = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector2d& p : submap.way_m) distance_m = std::min(distance_m, (p - here_m).norm());
-    const double sd_m = std::sqrt(covariances[submap.origin].topLeftCorner<2, 2>().trace());
-    if (distance_m <= options_.nearest_m + std::min(2.0 * sd_m, options_.widest_m))
-      found.emplace_back(distance_m + sd_m, s);
+    const double distance_m = submap.distance_m(inverse(graph.pose(submap.origin)) * now.position());
+    if (distance_m > options_.nearest_m + options_.widest_m) continue;
+    found.push_back({.submap = s, .distance_m = distance_m});
+    origins.push_back(submap.origin);
   }
-  std::sort(found.begin(), found.end());
-  std::vector<std::size_t> nearest;
-  for (std::size_t i = 0; i < std::min(kMost, found.size()); ++i) nearest.push_back(found[i].second);
-  return nearest;
+  const std::vector<Matrix3d> covariances = graph.covariances_from_last(origins);
+  for (std::size_t i = 0; i < found.size(); ++i) found[i].covariance = covariances[i];
+  std::erase_if(found, [&](const Nearby& n) {
+    return n.distance_m > options_.nearest_m + std::min(2.0 * n.sd_m(), options_.widest_m);
+  });
+  std::stable_sort(found.begin(), found.end(), [](const Nearby& a, const Nearby& b) {
+    return a.distance_m + a.sd_m() < b.distance_m + b.sd_m();
+  });
+  return found;
 }
 
 std::vector<Closure> LoopCloser::look(const PoseGraph& graph) {
@@ -43,23 +45,27 @@ std::vector<Closure> LoopCloser::look(const PoseGraph& graph) {
   if (last.travelled_m - looked_at_m_ < options_.look_every_m || way_m < 0.75 * options_.submaps.stretch_m)
     return closures;
   looked_at_m_ = last.travelled_m;
-  const std::vector<Matrix3d> covariances = graph.covariances_from_last();
   const Stretch stretch = store_.stretch();
-  for (const std::size_t s : near(graph, covariances)) {
-    const std::size_t origin = store_.submaps()[s].origin;
+  const std::vector<Nearby> all = near(graph);
+  constexpr std::size_t kMost = 2;
+  for (const Nearby& nearby : std::span(all).first(std::min(kMost, all.size()))) {
+    const std::size_t origin = store_.submaps()[nearby.submap].origin;
     const Pose2 origin_T_base = between(graph.pose(origin), graph.pose(graph.size() - 1));
     // The covariance is that of base_T_origin, in the base's axes; of the inverse motion, in the origin's:
     Matrix3d j = Matrix3d::Zero();
     j.topLeftCorner<2, 2>() = -origin_T_base.rotation();
     j.topRightCorner<2, 1>() = Eigen::Vector2d(origin_T_base.y, -origin_T_base.x);
     j(2, 2) = -1.0;
-    const PosePrior prior{origin_T_base, j * covariances[origin] * j.transpose() + 4.0 * least_covariance()};
+    const PosePrior prior{origin_T_base, j * nearby.covariance * j.transpose() + 4.0 * least_covariance()};
     ++counts_.looked_at;
-    if (const auto closure = close(s, stretch, prior)) {
-      closures.push_back(*closure);
-      store_.let_go_where_known(s, closure->from_T_to);
-    }
+    if (const auto closure = close(nearby.submap, stretch, prior)) closures.push_back(*closure);
   }
+  if (closures.empty()) return closures;
+  std::vector<std::size_t> known;
+  constexpr double kKnown_m = 0.25;
+  for (const Nearby& nearby : all)
+    if (nearby.sd_m() < kKnown_m) known.push_back(nearby.submap);
+  store_.let_go_where_known(known, graph);
   return closures;
 }
 

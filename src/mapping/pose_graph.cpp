@@ -112,6 +112,14 @@ void PoseGraph::add(const ChainLink& link) {
     poses_.push_back(poses_.back() * link.by_scans);
   }
   links_.push_back(link);
+  link_covariances_.push_back(covariance_of(link.wheels_information + link.scans_information));
+  closures_at_.emplace_back();
+}
+
+void PoseGraph::add(const Closure& closure) {
+  for (const std::size_t end : {closure.from, closure.to}) closures_at_[end].push_back(closures_.size());
+  closures_.push_back(closure);
+  closure_covariances_.push_back(covariance_of(closure.information));
 }
 
 void PoseGraph::move_tail(std::size_t first, std::size_t i, const Pose2& to) {
@@ -177,26 +185,34 @@ bool PoseGraph::refute() {
   return any;
 }
 
-std::vector<std::vector<PoseGraph::Edge>> PoseGraph::neighbours() const {
-  std::vector<std::vector<Edge>> edges(poses_.size());
-  const auto join = [&](std::size_t a, std::size_t b, const Matrix3d& covariance) {
-    edges[a].push_back({b, covariance});
-    edges[b].push_back({a, of_inverse(between(poses_[a], poses_[b]), covariance)});
+std::vector<PoseGraph::Edge> PoseGraph::edges_of(std::size_t i) const {
+  std::vector<Edge> edges;
+  const auto ahead = [&](std::size_t to, const Matrix3d& covariance) { edges.push_back({to, covariance}); };
+  const auto back = [&](std::size_t from, const Matrix3d& covariance) {
+    edges.push_back({from, of_inverse(between(poses_[from], poses_[i]), covariance)});
   };
-  for (std::size_t i = 1; i < poses_.size(); ++i)
-    if (!links_[i].wheels_information.isZero())
-      join(i - 1, i, covariance_of(links_[i].wheels_information + links_[i].scans_information));
-  for (const Closure& c : closures_)
-    if (!c.refuted) join(c.from, c.to, covariance_of(c.information));
+  const auto is_joined = [&](std::size_t k) { return !links_[k].wheels_information.isZero(); };
+  if (i > 0 && is_joined(i)) back(i - 1, link_covariances_[i]);
+  if (i + 1 < poses_.size() && is_joined(i + 1)) ahead(i + 1, link_covariances_[i + 1]);
+  for (const std::size_t k : closures_at_[i]) {
+    const Closure& c = closures_[k];
+    if (c.refuted) continue;
+    if (c.from == i)
+      ahead(c.to, closure_covariances_[k]);
+    else
+      back(c.from, closure_covariances_[k]);
+  }
   return edges;
 }
 
-std::vector<Matrix3d> PoseGraph::covariances_from_last() const {
-  const std::vector<std::vector<Edge>> edges = neighbours();
+std::vector<Matrix3d> PoseGraph::covariances_from_last(std::span<const std::size_t> nodes) const {
   const Matrix3d unknown = Vector3d(1e4, 1e4, 10.0).asDiagonal();
+  if (poses_.empty()) return {};
   std::vector<Matrix3d> covariances(poses_.size(), unknown);
-  std::vector<bool> done(poses_.size(), false);
-  if (poses_.empty()) return covariances;
+  std::vector<bool> done(poses_.size(), false), wanted(poses_.size(), false);
+  std::size_t left = 0;
+  for (const std::size_t node : nodes)
+    if (!wanted[node]) wanted[node] = true, ++left;
   using Candidate = std::pair<double, std::size_t>;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> open;
   std::vector<double> best(poses_.size(), std::numeric_limits<double>::infinity());
@@ -204,13 +220,14 @@ std::vector<Matrix3d> PoseGraph::covariances_from_last() const {
   best.back() = 0.0;
   covariances.back().setZero();
   const Pose2& last = poses_.back();
-  while (!open.empty()) {
+  while (!open.empty() && left > 0) {
     const std::size_t i = open.top().second;
     open.pop();
     if (done[i]) continue;
     done[i] = true;
+    if (wanted[i]) --left;
     const Pose2 last_T_i = between(last, poses_[i]);
-    for (const Edge& edge : edges[i]) {
+    for (const Edge& edge : edges_of(i)) {
       if (done[edge.to]) continue;
       const Matrix3d there =
           composed(last_T_i, covariances[i], between(poses_[i], poses_[edge.to]), edge.covariance);
@@ -221,7 +238,9 @@ std::vector<Matrix3d> PoseGraph::covariances_from_last() const {
       open.push({size, edge.to});
     }
   }
-  return covariances;
+  std::vector<Matrix3d> found;
+  for (const std::size_t node : nodes) found.push_back(covariances[node]);
+  return found;
 }
 
 }  // namespace mstsl

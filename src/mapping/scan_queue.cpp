@@ -14,8 +14,7 @@ constexpr double kPatience_s = 3.0;
 void ScanQueue::observe(const OdometryReading& odometry) {
   track_.add(odometry);
   const auto pose = track_.at(odometry.stamp);
-  if (pose && (odometry_.empty() || odometry.stamp > odometry_.back().stamp))
-    odometry_.push_back({odometry.stamp, *pose});
+  if (pose) odometry_.add({odometry.stamp, *pose});
 }
 
 void ScanQueue::observe(const LaserScan& scan) {

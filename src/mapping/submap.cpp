@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mstsl {
 namespace {
@@ -49,6 +50,12 @@ PointSet all_points(const std::vector<Keyframe>& keyframes, const Pose2& chain_T
 }
 
 }  // namespace
+
+double Submap::distance_m(const Eigen::Vector2d& point_m) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& p : way_m) nearest_m = std::min(nearest_m, (p - point_m).norm());
+  return nearest_m;
+}
 
 Stretch stretch_of(std::span<const Keyframe> keyframes, std::size_t origin,
                    const Eigen::Vector2d& magnetometer_base_m, double spacing_m) {

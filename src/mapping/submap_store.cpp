@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mstsl {
 namespace {
@@ -63,19 +62,18 @@ const SubmapWalls& SubmapStore::walls_of(std::size_t submap) {
   return ready_.front().second;
 }
 
-void SubmapStore::let_go_where_known(std::size_t submap, const Pose2& origin_T_base) {
+void SubmapStore::let_go_where_known(std::span<const std::size_t> known, const PoseGraph& graph) {
   if (submaps_.empty()) return;
   Submap& newest = submaps_.back();
-  if (&newest == &submaps_[submap] || newest.keyframes.empty()) return;
-  if (stretch_.back().travelled_m - newest.end_m > options_.stretch_m) return;
-  const Pose2 base_T_newest =
-      between(stretch_.back().chain_T_base, newest.keyframes[newest.origin - newest.first].chain_T_base);
-  const Pose2 there = origin_T_base * base_T_newest;
-  constexpr double kNear_m = 0.75, kAlike_rad = 0.8;
-  double distance_m = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector2d& p : submaps_[submap].way_m)
-    distance_m = std::min(distance_m, (p - there.position()).norm());
-  if (distance_m >= kNear_m || std::abs(there.yaw) >= kAlike_rad) return;
+  if (newest.keyframes.empty() || stretch_.back().travelled_m - newest.end_m > options_.stretch_m) return;
+  const bool shows_nothing_new = std::any_of(known.begin(), known.end(), [&](std::size_t k) {
+    const Submap& older = submaps_[k];
+    if (&older == &newest || older.keyframes.empty()) return false;
+    const Pose2 there = between(graph.pose(older.origin), graph.pose(newest.origin));
+    constexpr double kNear_m = 0.75, kAlike_rad = 0.8;
+    return older.distance_m(there.position()) < kNear_m && std::abs(there.yaw) < kAlike_rad;
+  });
+  if (!shows_nothing_new) return;
   ready_.remove_if([&](const auto& r) { return r.first + 1 == submaps_.size(); });
   newest.keyframes.clear();
   newest.keyframes.shrink_to_fit();

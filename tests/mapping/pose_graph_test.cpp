@@ -1,6 +1,7 @@
 #include "mstsl/mapping/pose_graph.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -81,19 +82,39 @@ TEST(PoseGraph, LearnsWhatIsWrongWithTheWheels) {
   EXPECT_NEAR(corrected.yaw, step.yaw, 0.02);
 }
 
+std::vector<Eigen::Matrix3d> all_covariances(const PoseGraph& graph) {
+  std::vector<std::size_t> nodes(graph.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return graph.covariances_from_last(nodes);
+}
+
 TEST(PoseGraph, UncertaintyGrowsWithTheWayAndShrinksOverClosures) {
   PoseGraph graph;
   graph.add(ChainLink{});
   for (const Pose2& step : square_steps()) graph.add({step, kUnsure, step, kUnsure});
-  const auto open = graph.covariances_from_last();
+  const auto open = all_covariances(graph);
   EXPECT_EQ(open.back(), Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
   const auto size = [](const Eigen::Matrix3d& covariance) { return covariance(0, 0) + covariance(1, 1); };
   EXPECT_GT(size(open[50]), size(open[90]));
   const Pose2 last_T_20 = between(graph.pose(100), graph.pose(20));
   graph.add(Closure{.from = 20, .to = 100, .from_T_to = inverse(last_T_20), .information = kSure});
-  const auto closed = graph.covariances_from_last();
+  const auto closed = all_covariances(graph);
   EXPECT_LT(size(closed[20]), 0.1 * size(open[20]));
   EXPECT_NEAR(closed[99](0, 0), open[99](0, 0), 1e-12);
+}
+
+TEST(PoseGraph, UncertaintyOfSomeIsThatOfAll) {
+  PoseGraph graph;
+  graph.add(ChainLink{});
+  for (const Pose2& step : square_steps()) graph.add({step, kUnsure, step, kUnsure});
+  graph.add(Closure{.from = 20, .to = 95, .from_T_to = {1, 2, 0.3}, .information = kSure});
+  graph.add(Closure{.from = 90, .to = 15, .from_T_to = {0, 1, 0}, .information = kUnsure});
+  const auto all = all_covariances(graph);
+  const std::vector<std::size_t> some{15, 99, 15, 60, 20};
+  const auto found = graph.covariances_from_last(some);
+  ASSERT_EQ(found.size(), some.size());
+  for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(found[i], all[some[i]]) << some[i];
+  EXPECT_TRUE(graph.covariances_from_last({}).empty());
 }
 
 /// The covariance along one chain against many chains drawn with its errors.
@@ -103,7 +124,7 @@ TEST(PoseGraph, UncertaintyIsWhatManyDrivesShow) {
   std::vector<Pose2> steps = square_steps();
   steps.resize(30);
   for (const Pose2& step : steps) graph.add({step, kUnsure, step, kUnsure});
-  const Eigen::Matrix3d claimed = graph.covariances_from_last().front();
+  const Eigen::Matrix3d claimed = all_covariances(graph).front();
   const Pose2 last_T_first = between(graph.pose(30), graph.pose(0));
   Random random(5);
   Eigen::Matrix3d seen = Eigen::Matrix3d::Zero();
@@ -128,7 +149,7 @@ TEST(PoseGraph, ADriveThatHangsOnNothingCanBeMoved) {
   graph.add({{1, 0, 0}, kUnsure, {1, 0, 0}, kSure});
   graph.add(ChainLink{});  // another drive
   graph.add({{1, 0, 0}, kUnsure, {1, 0, 0}, kSure});
-  EXPECT_GT(graph.covariances_from_last().front()(0, 0), 1000.0);
+  EXPECT_GT(all_covariances(graph).front()(0, 0), 1000.0);
   graph.move_tail(2, 3, {5, 5, kPi / 2});
   EXPECT_LT(distance(graph.pose(2), {5, 4, kPi / 2}), 1e-9);
   EXPECT_LT(distance(graph.pose(1), {1, 0, 0}), 1e-9);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -59,8 +60,16 @@ class LoopCloser {
   std::size_t keyframes_kept() const { return store_.keyframes_kept(); }
 
  private:
-  std::vector<std::size_t> near(const PoseGraph& graph,
-                                const std::vector<Eigen::Matrix3d>& covariances) const;
+  /// A submap that may show what the last metres do.
+  struct Nearby {
+    std::size_t submap = 0;
+    double distance_m = 0.0;  ///< of the last keyframe from its way, as far as the graph knows
+    /// Of the way between them (PoseGraph::covariances_from_last).
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    double sd_m() const { return std::sqrt(covariance.topLeftCorner<2, 2>().trace()); }
+  };
+  /// The likeliest first.
+  std::vector<Nearby> near(const PoseGraph& graph) const;
   std::optional<Closure> close(std::size_t submap, const Stretch& stretch, const PosePrior& prior);
 
   LoopCloserOptions options_;

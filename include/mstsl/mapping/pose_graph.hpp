@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -48,7 +49,7 @@ class PoseGraph {
   /// Appends a pose that hangs on the last one, or not at all where the link knows nothing; the first pose of
   /// all is the map's origin.
   void add(const ChainLink& link);
-  void add(const Closure& closure) { closures_.push_back(closure); }
+  void add(const Closure& closure);
   /// Moves the poses from `first` on as one rigid piece, so that pose `i` of them comes to `to`.
   void move_tail(std::size_t first, std::size_t i, const Pose2& to);
 
@@ -61,24 +62,27 @@ class PoseGraph {
   const std::vector<Closure>& closures() const { return closures_; }
   const WheelCalibration& wheels() const { return wheels_; }
 
-  /// How well the pose of each earlier node relative to the last one is known: the covariance (x, y, yaw; in
-  /// the axes of the last pose) along the best known way through the graph (Olson 2008, Dijkstra projection):
-  /// a little too large where several ways lead there.
-  std::vector<Eigen::Matrix3d> covariances_from_last() const;
+  /// How well the poses of some earlier nodes relative to the last one are known: for each the covariance (x,
+  /// y, yaw; in the axes of the last pose) along the best known way through the graph (Olson 2008, Dijkstra
+  /// projection): a little too large where several ways lead there. Looks no farther than it has to.
+  std::vector<Eigen::Matrix3d> covariances_from_last(std::span<const std::size_t> nodes) const;
 
  private:
   struct Edge {
     std::size_t to;
     Eigen::Matrix3d covariance;  ///< of this_T_to, in the axes of this
   };
-  std::vector<std::vector<Edge>> neighbours() const;
+  std::vector<Edge> edges_of(std::size_t i) const;
   void solve();
   bool refute();
 
   PoseGraphOptions options_;
   std::vector<Pose2> poses_;
   std::vector<ChainLink> links_;  ///< links_[i] leads from pose i - 1 to pose i
+  std::vector<Eigen::Matrix3d> link_covariances_;
   std::vector<Closure> closures_;
+  std::vector<Eigen::Matrix3d> closure_covariances_;
+  std::vector<std::vector<std::size_t>> closures_at_;  ///< of each pose
   WheelCalibration wheels_;
 };
 

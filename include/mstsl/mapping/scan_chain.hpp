@@ -78,7 +78,7 @@ class ScanChain {
 
   /// Every scan that was matched so far, and where on the chain it was taken.
   const std::vector<TimedPose>& matched_scans() const { return matched_scans_; }
-  /// track_T_base at each odometry reading so far.
+  /// track_T_base so far, as ThinnedTrack keeps it.
   const std::vector<TimedPose>& odometry() const { return queue_.odometry(); }
   std::size_t scans() const { return queue_.scans_seen(); }
   std::size_t breaks() const { return queue_.track().breaks(); }

@@ -8,6 +8,7 @@
 #include "mstsl/core/sensor_data.hpp"
 #include "mstsl/core/trajectory.hpp"
 #include "mstsl/localize/odometry_track.hpp"
+#include "mstsl/mapping/thinned_track.hpp"
 
 namespace mstsl {
 
@@ -30,13 +31,13 @@ class ScanQueue {
   std::optional<PlacedScan> next(bool at_the_end);
 
   const OdometryTrack& track() const { return track_; }
-  /// track_T_base at each odometry reading so far.
-  const std::vector<TimedPose>& odometry() const { return odometry_; }
+  /// track_T_base so far, as ThinnedTrack keeps it.
+  const std::vector<TimedPose>& odometry() const { return odometry_.poses(); }
   std::size_t scans_seen() const { return scans_seen_; }
 
  private:
   OdometryTrack track_;
-  std::vector<TimedPose> odometry_;
+  ThinnedTrack odometry_;
   std::deque<LaserScan> waiting_;
   std::size_t scans_seen_ = 0;
 };

@@ -32,7 +32,7 @@ struct Anchor {
 
 /// Where the robot was on one drive.
 struct DriveTrack {
-  Trajectory map_T_base;  ///< at each odometry reading and each matched scan
+  Trajectory map_T_base;  ///< at each matched scan, and often enough between (ThinnedTrack)
   double way_m = 0.0;
   std::size_t scans = 0;
   std::size_t breaks = 0;  ///< of odometry

@@ -40,6 +40,9 @@ struct Submap {
   double begin_m = 0.0, end_m = 0.0;            ///< travelled
   std::vector<Keyframe> keyframes;              ///< empty once another submap shows the same place
   std::vector<Eigen::Vector2d> way_m;           ///< places of the keyframes in the submap's frame
+
+  /// Of a point, in that frame, from the way.
+  double distance_m(const Eigen::Vector2d& point_m) const;
 };
 
 /// What matching needs of a submap; made from its keyframes when it is first asked for.

@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <deque>
 #include <list>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "mstsl/mapping/field_evidence.hpp"
 #include "mstsl/mapping/keyframe.hpp"
+#include "mstsl/mapping/pose_graph.hpp"
 #include "mstsl/mapping/submap.hpp"
 
 namespace mstsl {
@@ -39,9 +41,9 @@ class SubmapStore {
   /// What matching needs of a submap; good until the next call.
   const SubmapWalls& walls_of(std::size_t submap);
 
-  /// The last keyframe was found at origin_T_base in a submap: if the newest whole submap goes along that
-  /// one, the same way round, it shows nothing more and is let go.
-  void let_go_where_known(std::size_t submap, const Pose2& origin_T_base);
+  /// If the newest whole submap goes along one of these, whose places relative to it are well known, the same
+  /// way round, it shows nothing more and is let go.
+  void let_go_where_known(std::span<const std::size_t> known, const PoseGraph& graph);
 
  private:
   void end_submap();
