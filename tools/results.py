@@ -9,7 +9,7 @@ paper` (paper/WORLD_SEED.json, limits/WORLD_CURVE_POINT.json), of `mstsl bench -
 real/METHOD_SEED.json), of
 tools/real_field.sh (field/real.json) and of `mstsl bench --protocol hard` (results_SET.json, as hard/METHOD_SEED.json, with cost_SET.json as hard_cost/SEED.json, and for
 several methods on the same events baselines/SEED.json, those of an ordinary building ordinary/SEED.json, without a magnetometer no_magnetometer/SEED.json); mapping/: mapping_SEED.json of `mstsl bench --protocol mapping` and
-real.json of tools/real_mapping.sh, mrpt.json of bench/mrpt_slam.sh; update/SEED.json of tools/map_update.sh;
+real.json of tools/real_mapping.sh, mrpt.json of bench/mrpt_slam.sh; update/SEED.json of tools/map_update.sh; positions/SEED.json of tools/survey_positions.sh;
 ambiguity/SEED.json of tools/ambiguity_check.py.
 """
 import json
@@ -258,6 +258,18 @@ def ambiguity_table():
     return table(["building", "starts", "drives", "foretold", "answered rightly"], rows)
 
 
+def positions_table():
+    """A survey tracked on its map: how far off, and what maps of true and of tracked positions foretell of other drives."""
+    rows = []
+    for report in reports("positions").values():
+        for world, of in report.items():
+            uT = lambda what: f"{of[what]:.2f} uT"
+            rows.append([world, f"{100 * of['survey_rms_m']:.1f} cm", f"{100 * of['survey_shift_m']:.1f} cm", uT("true_map_uT"),
+                         uT("true_map_tracked_drives_uT"), uT("tracked_map_uT"), uT("tracked_map_tracked_drives_uT")])
+    return table(["site", "off, rms", "of which the same everywhere", "map of true positions, true drives", "tracked drives",
+                  "map of tracked positions, true drives", "tracked drives"], rows)
+
+
 def method_reports():
     """Those in which several methods heard the same events, and what is to be said of all their places."""
     return ([("", report) for report in reports("baselines").values()] +
@@ -284,7 +296,7 @@ def losses_list():
 
 
 TABLES = {"trust": trust_table, "losses": losses_list, "hard_facts": hard_facts_list, "ambiguity": ambiguity_table, "paper": paper_table, "limits": limits_table, "real": real_table, "field": field_table,
-          "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "ordinary": ordinary_table, "mapping": mapping_table,
+          "hard": hard_table, "baselines": baselines_table, "kidnap": kidnap_table, "ordinary": ordinary_table, "positions": positions_table, "mapping": mapping_table,
           "mapping_real": mapping_real_table, "update": update_table}
 
 

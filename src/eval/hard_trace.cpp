@@ -1,10 +1,13 @@
 #include "mstsl/eval/hard_trace.hpp"
 
 #include <algorithm>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "mstsl/core/parallel.hpp"
 #include "mstsl/io/field_map_file.hpp"
 #include "mstsl/sim/occupancy_map.hpp"
 
@@ -34,6 +37,39 @@ Result<std::shared_ptr<const TracedPlace>> place_of(const HardSite& site, const 
       TracedPlace{name, sim::occupancy_map(site.building.surveyed), std::move(field).value()});
 }
 
+/// Starts in one building with one survey, which are made once for all of them.
+struct SiteStarts {
+  std::string world;
+  int building = 0;
+  SurveyKind kind;
+  std::vector<std::size_t> starts;  ///< which
+  std::string name() const { return fmt::format("{} {}, {}", world, building, kind.name()); }
+};
+
+Result<std::vector<SiteStarts>> by_site(const std::vector<HardStart>& starts, int buildings) {
+  std::vector<SiteStarts> sites;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto disturbance = disturbance_by(starts[i].disturbance);
+    if (!disturbance) return Error(fmt::format("there is no disturbance '{}'", starts[i].disturbance));
+    SiteStarts site{starts[i].world, starts[i].run % buildings, survey_kind(*disturbance), {}};
+    const auto same = std::ranges::find(sites, site.name(), &SiteStarts::name);
+    (same == sites.end() ? sites.emplace_back(std::move(site)) : *same).starts.push_back(i);
+  }
+  return sites;
+}
+
+Result<RunTrace> trace_of(const HardProtocolOptions& options, const HardSite& site,
+                          const std::shared_ptr<const TracedPlace>& place, const HardStart& start) {
+  auto drive = drive_hard_run(site.building, site.methods, *disturbance_by(start.disturbance), options,
+                              site.runs.fork(static_cast<std::uint64_t>(start.run)), Traced::kYes);
+  if (!drive) return drive.error();
+  RunTrace trace = std::move(drive->trace);
+  trace.name = fmt::format("{}, {}, run {}", start.world, start.disturbance, start.run);
+  trace.place = place;
+  for (std::size_t m = 0; m < trace.methods.size(); ++m) trace.methods[m].name = options.methods[m];
+  return trace;
+}
+
 }  // namespace
 
 std::vector<HardStart> worth_looking_at(const std::vector<HardRecord>& records,
@@ -55,34 +91,34 @@ std::vector<HardStart> worth_looking_at(const std::vector<HardRecord>& records,
 
 Result<std::vector<RunTrace>> trace_hard_runs(const HardProtocolOptions& options,
                                               const std::vector<HardStart>& starts) {
+  const Result<std::vector<SiteStarts>> sites = by_site(starts, options.buildings);
+  if (!sites) return sites.error();
+  std::vector<std::optional<Result<RunTrace>>> traced(starts.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  bool ended = false;
+  for (const SiteStarts& at : *sites) {
+    const Result<HardSite> site = make_site(options, at.world, at.building, at.kind);
+    if (!site) return site.error();
+    const auto place = place_of(*site, at.name());
+    if (!place) return place.error();
+    parallel_for(at.starts.size(), options.threads, [&](std::size_t i) {
+      {
+        const std::lock_guard lock(mutex);
+        if (ended) return;
+      }
+      traced[at.starts[i]] = trace_of(options, *site, *place, starts[at.starts[i]]);
+      const std::lock_guard lock(mutex);
+      ++done;
+      if (options.progress)
+        ended |= !options.progress("replays", static_cast<double>(done) / static_cast<double>(starts.size()));
+    });
+    if (ended) return Error("interrupted; the same command goes on from there");
+  }
   std::vector<RunTrace> traces;
-  std::string made;  // which site stands ready
-  std::optional<HardSite> site;
-  std::shared_ptr<const TracedPlace> place;
-  for (const HardStart& start : starts) {
-    const auto disturbance = disturbance_by(start.disturbance);
-    if (!disturbance) return Error(fmt::format("there is no disturbance '{}'", start.disturbance));
-    const SurveyKind kind = survey_kind(*disturbance);
-    const int building = start.run % options.buildings;
-    const std::string name = fmt::format("{} {}, {}", start.world, building, kind.name());
-    if (std::exchange(made, name) != name) {
-      Result<HardSite> next = make_site(options, start.world, building, kind);
-      if (!next) return next.error();
-      site.emplace(std::move(next).value());
-      auto shown = place_of(*site, name);
-      if (!shown) return shown.error();
-      place = std::move(shown).value();
-    }
-    auto drive = drive_hard_run(site->building, site->methods, *disturbance, options,
-                                site->runs.fork(static_cast<std::uint64_t>(start.run)), Traced::kYes);
-    if (!drive) return drive.error();
-    RunTrace& trace = traces.emplace_back(std::move(drive->trace));
-    trace.name = fmt::format("{}, {}, run {}", start.world, start.disturbance, start.run);
-    trace.place = place;
-    for (std::size_t m = 0; m < trace.methods.size(); ++m) trace.methods[m].name = options.methods[m];
-    if (options.progress &&
-        !options.progress("replays", static_cast<double>(traces.size()) / static_cast<double>(starts.size())))
-      return Error("interrupted; the same command goes on from there");
+  for (auto& trace : traced) {
+    if (!*trace) return trace->error();
+    traces.push_back(std::move(*trace).value());
   }
   return traces;
 }
