@@ -25,6 +25,7 @@ set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)  # where CMAKE_UNITY_BUILD is on
 add_library(mstsl_own_flags INTERFACE)
 target_compile_options(mstsl_own_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   -Wno-sign-conversion -Wnon-virtual-dtor -Werror=return-type
+  -Wno-missing-field-initializers  # what a designated initializer leaves out has its default
   # The same bytes on every machine: no fused multiply-add that one compiler makes and another does not.
   -ffp-contract=off)
 if(MSTSL_SIMD STREQUAL "avx2")

@@ -45,7 +45,8 @@ struct AmbiguousPlace {
 /// Where in a building a robot will find itself, computed from its maps alone: drives of a few metres are
 /// made up from them (scans cast in the occupancy map, the field as the field map has it, off by as much as
 /// it says it may be) and given to the joint method. What the maps do not know (people, moved things) is not
-/// in it: it is the best to be hoped for, and shows where to survey again, or where to put a piece of iron.
+/// in it. It shows where to survey again, or where to put a piece of iron; shares are on the low side
+/// (docs/mapping.md).
 /// Errors: an end asked for.
 Result<std::vector<AmbiguousPlace>> find_ambiguity(std::shared_ptr<const LocalizationMaps> maps,
                                                    const AmbiguityOptions& options = {});
