@@ -16,9 +16,9 @@ struct PaperFigures {
   };
   std::map<FieldModel, Initialisation> initialisation;
   double alignment_mean_deg;
-  double success;      ///< of the whole method, with GPR
-  double error_m;      ///< this error ...
-  double error_share;  ///< ... is not exceeded by this share of the runs
+  double success;            ///< of the whole method, with GPR
+  double error_m;            ///< this error ...
+  double error_share;        ///< ... is not exceeded by this share of the runs
   std::size_t fingerprints;  ///< of its survey
 };
 

@@ -24,8 +24,8 @@ Result<Eigen::Vector2d> random_waypoint(const World& world, const RunOptions& op
 Result<Route> route_from(const World& world, const Eigen::Vector2d& waypoint_m, const RunOptions& options,
                          const Random& random);
 
-/// On and on to random places (leg k's drawn by `random.fork(k)`, from 1), each on the shortest way, until the
-/// route has the wished length; it sets out ahead. Errors: no other place can be reached.
+/// On and on to random places (leg k's drawn by `random.fork(k)`, from 1), each on the shortest way, until
+/// the route has the wished length; it sets out ahead. Errors: no other place can be reached.
 Result<Route> tour_from(const World& world, const Eigen::Vector2d& waypoint_m, const RunOptions& options,
                         const Random& random);
 
