@@ -284,7 +284,7 @@ def trust_table():
 
 def hard_facts_list():
     costs = reports("hard_cost")
-    facts = [fact for report in reports("hard").values() if report["set"] == "fix"
+    facts = [fact for name, report in reports("hard").items() if name.startswith("joint")
              for fact in standing.hard_facts(report, costs.get(str(report["seed"])))]
     return "\n".join(f"- {fact}" for fact in facts)
 
