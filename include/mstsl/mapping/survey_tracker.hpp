@@ -37,7 +37,7 @@ struct SurveyTrackerOptions {
   MotionNoise odometry;
 };
 
-/// Where the robot was at each odometry reading of a drive, from all of its scans.
+/// Where the robot was on a drive, from all of its scans: often enough (ThinnedTrack) for all times between.
 struct SurveyTrack {
   Trajectory map_T_base;
   std::size_t scans = 0;      ///< matched
