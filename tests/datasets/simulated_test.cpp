@@ -114,11 +114,11 @@ TEST(Simulated, DrawsEachLogsErrorsAnew) {
 }
 
 TEST(Simulated, SaysWhatCannotBeSurveyedOrDriven) {
-  SimulatedOptions few = quick(), far = quick();
+  SimulatedOptions few = quick(), wide = quick();
   few.survey.fingerprints = 10;
-  far.run.length_m = 1e4;
+  wide.run.path.clearance_m = 5.0;  // no lane has room for such a robot
   EXPECT_FALSE(simulated(building(), few, Random(2)));
-  EXPECT_FALSE(simulated(building(), far, Random(2)));
+  EXPECT_FALSE(simulated(building(), wide, Random(2)));
 }
 
 }  // namespace

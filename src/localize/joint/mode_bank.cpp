@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -45,6 +46,7 @@ Mode merged_modes(const Mode& a, const Mode& b) {
   both.log_weight = a.log_weight - std::log1p(-share_b);
   both.scale.weight = (1 - share_b) * a.scale.weight + share_b * b.scale.weight;
   both.scale.squares = (1 - share_b) * a.scale.squares + share_b * b.scale.squares;
+  both.field_account = (1 - share_b) * a.field_account + share_b * b.field_account;
   both.scan_account = (1 - share_b) * a.scan_account + share_b * b.scan_account;
   both.changed = (1 - share_b) * a.changed + share_b * b.changed;
   return both;
@@ -92,6 +94,7 @@ void ModeBank::move(const Step& step) {
   elsewhere_.predict(step.last_T_base.yaw);
   const double moved_m = std::hypot(step.last_T_base.x, step.last_T_base.y);
   since_fit_m_ += moved_m, since_evidence_m_ += moved_m, since_merge_m_ += moved_m;
+  since_found_m_ += moved_m;
   since_fit_rad_ += std::abs(step.last_T_base.yaw);
 }
 
@@ -102,11 +105,27 @@ void ModeBank::weigh_by_field(const std::vector<Station>& stations) {
   constexpr std::size_t kChunk = 128;
   parallel_for((modes_.size() + kChunk - 1) / kChunk, options_.threads, [&](std::size_t chunk) {
     for (std::size_t i = chunk * kChunk; i < std::min(modes_.size(), (chunk + 1) * kChunk); ++i)
-      for (const Station& station : stations)
-        modes_[i].log_weight +=
+      for (const Station& station : stations) {
+        const double told =
             options_.field_temper *
             update_by_field(modes_[i], station, maps_->both->field_cells, magnetometer_m_, options_.field);
+        modes_[i].log_weight += told, modes_[i].field_account += told;
+      }
   });
+  spare_the_early();
+}
+
+void ModeBank::spare_the_early() {
+  const std::size_t spared = std::min(modes_.size(), options_.spared);  // they are sorted, but for this step
+  const double most = options_.early_loss + std::log(static_cast<double>(spared)) +
+                      options_.early_loss_per_m * since_found_m_;
+  if (spared == 0 || most > -options_.drop_below) return;
+  const Mode& best = *std::ranges::min_element(modes_, heavier);
+  const double least = best.field_account - most;
+  for (Mode& mode : std::span(modes_).first(spared)) {
+    const double back = std::max(0.0, least - mode.field_account);
+    mode.log_weight += back, mode.field_account += back;
+  }
 }
 
 double ModeBank::evidence_score(const PointSet& points, const Pose2& map_T_base) const {
@@ -261,8 +280,10 @@ void ModeBank::add_modes(std::vector<Mode> modes) {
   if (modes.empty()) return;
   const double share = modes_.empty() ? 1.0 - options_.elsewhere_prior : 0.9;
   const double log_each = log_elsewhere_ + std::log(share / static_cast<double>(modes.size()));
+  const double account = modes_.empty() ? 0.0 : modes_.front().field_account;
+  since_found_m_ = 0.0;
   for (Mode& mode : modes) {
-    mode.log_weight = log_each;
+    mode.log_weight = log_each, mode.field_account = account;
     modes_.push_back(mode);
   }
   log_elsewhere_ += std::log1p(-share);

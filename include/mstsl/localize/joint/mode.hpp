@@ -39,7 +39,8 @@ struct Mode {
   double log_weight = 0.0;  ///< natural log; normalised by ModeBank
   double changed = 0.0;     ///< probability that the map is of no use here: steel was moved
   ErrorScale scale = {};
-  double scan_account = 0.0;  ///< log evidence of the present place by scans that is in log_weight already
+  double scan_account = 0.0;   ///< log evidence of the present place by scans that is in log_weight already
+  double field_account = 0.0;  ///< the part of log_weight that the field told
 
   Eigen::Matrix3d pose_covariance() const { return covariance.topLeftCorner<3, 3>(); }
 };
