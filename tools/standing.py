@@ -80,6 +80,8 @@ def real_losses(name, data_sets):
             continue
         if of["success"]["hits"] < of["success"]["of"]:
             yield f"{entry['dataset']}, seed {seed}: the first pose was right, and within 10 m, in {counts(of['success'])}."
+        if of["final_success"]["hits"] < of["final_success"]["of"]:
+            yield f"{entry['dataset']}, seed {seed}: right at the end in {counts(of['final_success'])}."
         if of["runs_wrong_at_0.999"]["hits"]:
             yield f"{entry['dataset']}, seed {seed}: a wrong pose was claimed at 0.999 in {counts(of['runs_wrong_at_0.999'])} runs."
 
