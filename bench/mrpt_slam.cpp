@@ -1,11 +1,10 @@
 // MRPT's two 2-D SLAM methods on a log that `mstsl map occupancy` maps too, held against the log's own poses
 // by the same measures. See mrpt_slam.sh.
 //
-//   mrpt_slam icp|rbpf LOG TRUTH_TOPIC
+//   mrpt_slam icp|rbpf SETTINGS.ini LOG TRUTH_TOPIC
 //
-// The settings are those of MRPT's examples icp-slam_demo_classic.ini and
-// gridmapping_RBPF_ICPbased_intel.ini. (Its programs of these names read a CARMEN log with all stamps alike,
-// and then stand still.)
+// The last line of stdout is the result; MRPT itself may say something before. (Its own programs icp-slam and
+// rbpf-slam read a CARMEN log with all stamps alike, and then stand still.)
 #include <cstdio>
 #include <ctime>
 #include <deque>

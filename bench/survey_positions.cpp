@@ -4,8 +4,8 @@
 //
 //   survey_positions FOLDER
 //
-// FOLDER is one of `mstsl simulate`, its surveys with scans and its runs as the drives foretold; the survey
-// is tracked on FOLDER/map.yaml or on MAP.yaml, whose frame must be the same. See tools/survey_positions.sh.
+// FOLDER is one of `mstsl simulate`, its surveys with scans and its runs as the drives foretold. See
+// tools/survey_positions.sh.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
