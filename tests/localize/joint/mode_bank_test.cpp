@@ -63,7 +63,7 @@ TEST(ModeBank, TwoMetresOfMovedSteelDoNotRefuteAPlace) {
   EXPECT_NEAR(spared.sum(), 1.0, 1e-9);
 }
 
-TEST(ModeBank, TwentyMetresDo) {
+TEST(ModeBank, ThirteenMetresDo) {
   TwoPlaces places({});
   places.drive(13.0, true);
   EXPECT_LT(places.right_weight(), 1e-6);
